@@ -1,0 +1,58 @@
+//! The fluid that bodies are immersed in.
+
+use crate::Error;
+use rapier3d::math::Real;
+
+/// A homogeneous Newtonian fluid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct Fluid {
+    density: Real,
+    kinematic_viscosity: Real,
+}
+
+impl Fluid {
+    /// Air at 25 °C and one atmosphere: 1.184 kg/m³, 1.562·10⁻⁵ m²/s.
+    pub const AIR: Self = Self {
+        density: 1.184,
+        kinematic_viscosity: 1.562e-5,
+    };
+
+    /// Water at 25 °C: 997 kg/m³, 0.89·10⁻⁶ m²/s (the viscosity that the thesis, §3.6, and the
+    /// falling-plate experiments use).
+    pub const WATER: Self = Self {
+        density: 997.0,
+        kinematic_viscosity: 0.89e-6,
+    };
+
+    /// A fluid of the given density (kg/m³) and kinematic viscosity (m²/s).
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] if either is not positive and finite.
+    pub fn new(density: Real, kinematic_viscosity: Real) -> Result<Self, Error> {
+        Error::check_positive("fluid density", density.into())?;
+        Error::check_positive("kinematic viscosity", kinematic_viscosity.into())?;
+        Ok(Self {
+            density,
+            kinematic_viscosity,
+        })
+    }
+
+    /// Mass density ρ, kg/m³.
+    pub fn density(&self) -> Real {
+        self.density
+    }
+
+    /// Kinematic viscosity ν, m²/s.
+    pub fn kinematic_viscosity(&self) -> Real {
+        self.kinematic_viscosity
+    }
+
+    /// Dynamic viscosity μ = ρν, Pa·s.
+    pub fn dynamic_viscosity(&self) -> Real {
+        self.density * self.kinematic_viscosity
+    }
+}

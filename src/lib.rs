@@ -1,0 +1,11 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod error;
+pub mod flow;
+pub mod fluid;
+
+pub use error::Error;
+pub use fluid::Fluid;
+pub use rapier3d;
