@@ -5,6 +5,8 @@
 pub mod error;
 pub mod flow;
 pub mod fluid;
+pub mod geometry;
+pub mod hydro;
 
 pub use error::Error;
 pub use fluid::Fluid;
