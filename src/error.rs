@@ -16,6 +16,54 @@ pub enum Error {
         /// The value that was given.
         value: f64,
     },
+
+    /// The shape encloses no volume, so that no fluid is displaced.
+    #[error("a {shape} encloses no volume: it cannot be immersed")]
+    ShapeWithoutVolume {
+        /// Which kind of shape.
+        shape: &'static str,
+    },
+
+    /// A mesh (or compound, or convex hull) without any triangle of non-zero size.
+    #[error("the mesh has no triangles of non-zero size")]
+    EmptyMesh,
+
+    /// A vertex of a mesh is NaN or infinite.
+    #[error("vertex {index} of the mesh is not finite")]
+    NonFiniteVertex {
+        /// Index of the first such vertex.
+        index: usize,
+    },
+
+    /// A triangle refers to a vertex that does not exist.
+    #[error("a triangle refers to vertex {index}, but the mesh has {vertices} vertices")]
+    IndexOutOfRange {
+        /// The index.
+        index: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+
+    /// A mesh is not watertight, or its triangles are not oriented alike.
+    #[error(
+        "the mesh is not closed: {open_edges} edges lack a triangle on one side, \
+         the first from {from:?} to {to:?}"
+    )]
+    OpenMesh {
+        /// Number of such edges.
+        open_edges: usize,
+        /// One end of the first, m.
+        from: [f64; 3],
+        /// Its other end, m.
+        to: [f64; 3],
+    },
+
+    /// A mesh is closed but flat, or its parts cancel.
+    #[error("the mesh, {size} m across, encloses no volume")]
+    NoVolume {
+        /// Diagonal of its bounding box, m.
+        size: f64,
+    },
 }
 
 impl Error {

@@ -7,6 +7,7 @@ pub mod flow;
 pub mod fluid;
 pub mod geometry;
 pub mod hydro;
+mod math;
 
 pub use error::Error;
 pub use fluid::Fluid;

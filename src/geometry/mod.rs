@@ -2,5 +2,8 @@
 
 mod carlson;
 pub mod ellipsoid;
+pub mod surface;
+mod tessellate;
 
 pub use ellipsoid::Ellipsoid;
+pub use surface::{Surface, VolumeIntegrals};

@@ -1,0 +1,293 @@
+//! Closed surfaces: where the volume, the planform and the boundary elements of a shape come from.
+
+use crate::Error;
+use rapier3d::na::{Matrix3, Vector3};
+use std::collections::HashMap;
+
+/// A closed triangle mesh whose normals point out of the body, into the fluid. f64, because
+/// everything the fluid feels of a shape is computed from it once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    vertices: Vec<Vector3<f64>>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Volume integrals of the space that a [`Surface`] encloses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeIntegrals {
+    /// Enclosed volume, m³.
+    pub volume: f64,
+    /// Centroid, m.
+    pub centroid: Vector3<f64>,
+    /// `∫ (x − centroid)(x − centroid)ᵀ dV`, m⁵.
+    pub second_moment: Matrix3<f64>,
+}
+
+impl VolumeIntegrals {
+    /// Inertia tensor about the centroid at unit density: `tr(S)·1 − S`, m⁵.
+    pub fn unit_inertia(&self) -> Matrix3<f64> {
+        Matrix3::from_diagonal_element(self.second_moment.trace()) - self.second_moment
+    }
+}
+
+impl Surface {
+    /// A closed surface from its triangles, counter-clockwise seen from the fluid.
+    ///
+    /// Vertices at the same place (within 10⁻⁷ of the mesh's size) are merged, triangles that this
+    /// collapses are dropped, and a mesh that is inside out as a whole is turned.
+    ///
+    /// # Errors
+    /// [`Error::EmptyMesh`], [`Error::NonFiniteVertex`], [`Error::IndexOutOfRange`],
+    /// [`Error::OpenMesh`] (naming an edge that does not have one triangle on each side) or
+    /// [`Error::NoVolume`].
+    pub fn new(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> Result<Self, Error> {
+        if let Some(index) = vertices
+            .iter()
+            .position(|v| !v.iter().all(|x| x.is_finite()))
+        {
+            return Err(Error::NonFiniteVertex { index });
+        }
+        if let Some(index) = triangles
+            .iter()
+            .flatten()
+            .find(|i| **i as usize >= vertices.len())
+        {
+            return Err(Error::IndexOutOfRange {
+                index: *index,
+                vertices: vertices.len(),
+            });
+        }
+        let (vertices, triangles) = weld(vertices, triangles);
+        if triangles.is_empty() {
+            return Err(Error::EmptyMesh);
+        }
+        let mut surface = Self {
+            vertices,
+            triangles,
+        };
+        surface.check_closed()?;
+        let integrals = surface.volume_integrals();
+        let size = surface.size();
+        if integrals.volume.abs() <= 1e-12 * size.powi(3) {
+            return Err(Error::NoVolume { size });
+        }
+        if integrals.volume < 0.0 {
+            for triangle in &mut surface.triangles {
+                triangle.swap(1, 2);
+            }
+        }
+        Ok(surface)
+    }
+
+    /// The vertices, m.
+    pub fn vertices(&self) -> &[Vector3<f64>] {
+        &self.vertices
+    }
+
+    /// Vertex indices of the triangles, counter-clockwise seen from the fluid.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The corners of each triangle.
+    pub fn corners(&self) -> impl Iterator<Item = [Vector3<f64>; 3]> + '_ {
+        self.triangles
+            .iter()
+            .map(|t| t.map(|i| self.vertices[i as usize]))
+    }
+
+    /// The surface with every vertex mapped by a motion or a uniform positive scaling.
+    pub fn map(&self, f: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Self {
+        Self {
+            vertices: self.vertices.iter().map(|v| f(*v)).collect(),
+            triangles: self.triangles.clone(),
+        }
+    }
+
+    /// Both surfaces, side by side. Where they overlap, the overlap counts twice, as it does in
+    /// rapier's own mass properties.
+    pub fn append(&mut self, other: &Self) {
+        let offset = self.vertices.len() as u32;
+        self.vertices.extend_from_slice(&other.vertices);
+        self.triangles
+            .extend(other.triangles.iter().map(|t| t.map(|i| i + offset)));
+    }
+
+    /// Diagonal of the bounding box, m.
+    pub fn size(&self) -> f64 {
+        let low = self
+            .vertices
+            .iter()
+            .fold(Vector3::repeat(f64::INFINITY), |low, v| low.inf(v));
+        let high = self
+            .vertices
+            .iter()
+            .fold(Vector3::repeat(f64::NEG_INFINITY), |high, v| high.sup(v));
+        (high - low).norm()
+    }
+
+    /// Volume, centroid and second moment of the enclosed space, exact for the mesh.
+    pub fn volume_integrals(&self) -> VolumeIntegrals {
+        // Tetrahedra from a point of the body, so that thin bodies far from the origin lose nothing.
+        let origin = self.vertices[0];
+        let (mut volume, mut first) = (0.0, Vector3::zeros());
+        let mut second = Matrix3::zeros();
+        for corners in self.corners() {
+            let [a, b, c] = corners.map(|v| v - origin);
+            let v = a.dot(&b.cross(&c)) / 6.0;
+            let sum = a + b + c;
+            volume += v;
+            first += sum * (v / 4.0);
+            second +=
+                (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose())
+                    * (v / 20.0);
+        }
+        if volume == 0.0 {
+            return VolumeIntegrals {
+                volume,
+                centroid: origin,
+                second_moment: Matrix3::zeros(),
+            };
+        }
+        let shift = first / volume;
+        VolumeIntegrals {
+            volume,
+            centroid: origin + shift,
+            second_moment: second - shift * shift.transpose() * volume,
+        }
+    }
+
+    /// Half the area that the surface shows to both sides along the unit vector `direction`, m²:
+    /// the shadow of a body whose lines of sight in that direction enter and leave it once.
+    pub fn projected_area(&self, direction: Vector3<f64>) -> f64 {
+        self.corners()
+            .map(|[a, b, c]| (b - a).cross(&(c - a)).dot(&direction).abs() / 4.0)
+            .sum()
+    }
+
+    /// Each edge must be used once in each direction.
+    fn check_closed(&self) -> Result<(), Error> {
+        let mut uses: HashMap<(u32, u32), i32> = HashMap::with_capacity(self.triangles.len() * 2);
+        for [a, b, c] in &self.triangles {
+            for (i, j) in [(*a, *b), (*b, *c), (*c, *a)] {
+                let sign = if i < j { 1 } else { -1 };
+                *uses.entry((i.min(j), i.max(j))).or_insert(0) += sign;
+            }
+        }
+        let mut open: Vec<_> = uses
+            .iter()
+            .filter(|(_, n)| **n != 0)
+            .map(|(e, _)| *e)
+            .collect();
+        open.sort_unstable();
+        match open.first() {
+            None => Ok(()),
+            Some((i, j)) => Err(Error::OpenMesh {
+                open_edges: open.len(),
+                from: self.vertices[*i as usize].into(),
+                to: self.vertices[*j as usize].into(),
+            }),
+        }
+    }
+}
+
+/// Merges vertices at the same place and drops triangles without area.
+fn weld(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
+    let scale = vertices.iter().map(|v| v.amax()).fold(0.0, f64::max);
+    if scale == 0.0 {
+        return (Vec::new(), Vec::new());
+    }
+    let grid = 1e7 / scale;
+    let mut seen = HashMap::with_capacity(vertices.len());
+    let mut welded = Vec::with_capacity(vertices.len());
+    let index: Vec<u32> = vertices
+        .iter()
+        .map(|v| {
+            let key: [i64; 3] = v.map(|x| (x * grid).round() as i64).into();
+            *seen.entry(key).or_insert_with(|| {
+                welded.push(*v);
+                welded.len() as u32 - 1
+            })
+        })
+        .collect();
+    let triangles = triangles
+        .iter()
+        .map(|t| t.map(|i| index[i as usize]))
+        .filter(|[a, b, c]| a != b && b != c && c != a)
+        .collect();
+    (welded, triangles)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn tetrahedron() -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
+        let v = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+        (v, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    }
+
+    /// Unit corner tetrahedron: V = 1/6, centroid ¼, ∫x² dV = 1/60, ∫xy dV = 1/120.
+    #[test]
+    fn integrals_of_the_corner_tetrahedron() {
+        let (v, t) = tetrahedron();
+        let far = Vector3::new(100.0, -50.0, 7.0);
+        let moved: Vec<_> = v.iter().map(|v| v + far).collect();
+        for (vertices, shift) in [(v, Vector3::zeros()), (moved, far)] {
+            let surface = Surface::new(&vertices, &t).unwrap();
+            let i = surface.volume_integrals();
+            assert_relative_eq!(i.volume, 1.0 / 6.0, max_relative = 1e-12);
+            assert_relative_eq!(i.centroid, shift + Vector3::repeat(0.25), epsilon = 1e-12);
+            let about_centroid = 1.0 / 60.0 - 1.0 / 96.0;
+            assert_relative_eq!(
+                i.second_moment[(0, 0)],
+                about_centroid,
+                max_relative = 1e-10
+            );
+            let product = 1.0 / 120.0 - 1.0 / 96.0;
+            assert_relative_eq!(i.second_moment[(0, 1)], product, max_relative = 1e-10);
+            assert_relative_eq!(
+                surface.projected_area(Vector3::z()),
+                0.5,
+                max_relative = 1e-12
+            );
+        }
+    }
+
+    #[test]
+    fn inside_out_is_turned_and_open_is_refused() {
+        let (v, t) = tetrahedron();
+        let inverted: Vec<_> = t.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+        let surface = Surface::new(&v, &inverted).unwrap();
+        assert!(surface.volume_integrals().volume > 0.0);
+
+        let open = Surface::new(&v, &t[..3]).unwrap_err();
+        assert!(
+            matches!(open, Error::OpenMesh { open_edges: 3, .. }),
+            "{open}"
+        );
+        assert_eq!(Surface::new(&v, &[]), Err(Error::EmptyMesh));
+        assert!(matches!(
+            Surface::new(&v, &[[0, 1, 9]]),
+            Err(Error::IndexOutOfRange {
+                index: 9,
+                vertices: 4
+            })
+        ));
+        let mut bad = v;
+        bad[2].y = f64::NAN;
+        assert_eq!(
+            Surface::new(&bad, &t),
+            Err(Error::NonFiniteVertex { index: 2 })
+        );
+    }
+
+    /// A flat double-sided sheet is closed but encloses nothing.
+    #[test]
+    fn double_sheet_has_no_volume() {
+        let v = [Vector3::zeros(), Vector3::x(), Vector3::y()];
+        let flat = Surface::new(&v, &[[0, 1, 2], [0, 2, 1]]);
+        assert!(matches!(flat, Err(Error::NoVolume { .. })));
+    }
+}
