@@ -17,12 +17,37 @@ pub enum Error {
         value: f64,
     },
 
+    /// A scalar parameter is outside of its range.
+    #[error("{parameter} must lie between {low} and {high}, but is {value}")]
+    OutOfRange {
+        /// Name of the parameter, as in the public API.
+        parameter: &'static str,
+        /// Smallest value allowed.
+        low: f64,
+        /// Largest value allowed.
+        high: f64,
+        /// The value that was given.
+        value: f64,
+    },
+
     /// The shape encloses no volume, so that no fluid is displaced.
     #[error("a {shape} encloses no volume: it cannot be immersed")]
     ShapeWithoutVolume {
         /// Which kind of shape.
         shape: &'static str,
     },
+
+    /// An added-mass tensor is not finite, not symmetric, or gives some motion negative energy.
+    #[error("the added-mass tensor is not symmetric, positive and finite")]
+    UnphysicalAddedMass,
+
+    /// A rigid body handle is stale.
+    #[error("there is no such rigid body")]
+    NoBody,
+
+    /// A rigid body has no enabled collider that is not a sensor.
+    #[error("the rigid body has no solid collider, so that it displaces no fluid")]
+    NoCollider,
 
     /// A mesh (or compound, or convex hull) without any triangle of non-zero size.
     #[error("the mesh has no triangles of non-zero size")]
@@ -75,6 +100,25 @@ impl Error {
             Err(Self::InvalidParameter {
                 parameter,
                 requirement: "positive and finite",
+                value,
+            })
+        }
+    }
+
+    /// `value` if it lies in `[low, high]`, otherwise the error that names it.
+    pub(crate) fn check_range(
+        parameter: &'static str,
+        value: f64,
+        low: f64,
+        high: f64,
+    ) -> Result<f64, Self> {
+        if (low..=high).contains(&value) {
+            Ok(value)
+        } else {
+            Err(Self::OutOfRange {
+                parameter,
+                low,
+                high,
                 value,
             })
         }

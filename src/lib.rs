@@ -2,6 +2,8 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod body;
+pub mod dynamics;
 pub mod error;
 pub mod flow;
 pub mod fluid;
@@ -9,6 +11,9 @@ pub mod geometry;
 pub mod hydro;
 mod math;
 
+pub use body::{DryMass, ImmersedBody};
+pub use dynamics::{FreeBody, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;
+pub use hydro::{HydroProperties, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw};
 pub use rapier3d;

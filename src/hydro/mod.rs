@@ -1,5 +1,11 @@
-//! What the fluid feels of a shape.
+//! What the fluid feels of a shape, and how it pushes back.
 
 pub mod added_mass;
+pub mod planform;
+pub mod properties;
+pub mod viscous;
 
 pub use added_mass::AddedMass;
+pub use planform::Planform;
+pub use properties::HydroProperties;
+pub use viscous::{PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw};

@@ -1,4 +1,9 @@
-//! The border between the f64 of what is computed once and the `Real` of rapier's world.
+//! Scalars, lanes, and the border between the f64 of what is computed once and the `Real` of rapier's world.
+
+mod scalar;
+
+pub use scalar::Scalar;
+pub(crate) use scalar::{LANES, Lanes, scalar_struct};
 
 use rapier3d::math::{Pose, Rotation, Vector};
 use rapier3d::na::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};

@@ -1,0 +1,183 @@
+//! One free body in f64, without rapier: for training, calibration and tests.
+
+use super::integrate::{Inviscid, Load, Motion, advance, rotate, rotate_back, substeps};
+use super::kirchhoff::Twist;
+use crate::Error;
+use crate::body::{BodyConstants, DryMass, ImmersedBody, LawConstants};
+use crate::dynamics::Integrator;
+use crate::flow::FlowSample;
+use crate::fluid::Fluid;
+use crate::math;
+use rapier3d::na::{Quaternion, UnitQuaternion, Vector3};
+
+/// A body that flies alone: the same equations, law and integrator as in a rapier world, in f64.
+///
+/// Positions are those of the center of mass; angular and linear velocities are in world axes.
+#[derive(Clone, Debug)]
+pub struct FreeBody {
+    constants: BodyConstants,
+    /// How finely steps are integrated.
+    pub integrator: Integrator,
+    /// Center of mass, m.
+    pub position: Vector3<f64>,
+    attitude: UnitQuaternion<f64>,
+    /// u and w relative to the fluid at rest, plate axes.
+    velocity: Twist<f64>,
+    rate: Twist<f64>,
+}
+
+impl FreeBody {
+    /// A body at rest at the origin, its frame aligned with the world's.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] if mass or inertia are not positive and finite,
+    /// [`Error::OutOfRange`] if a coefficient of the law is not, [`Error::UnphysicalAddedMass`].
+    pub fn new(body: &ImmersedBody, mass: &DryMass, fluid: &Fluid) -> Result<Self, Error> {
+        let constants = BodyConstants::new(body, mass, fluid)?;
+        let attitude = UnitQuaternion::from_rotation_matrix(&constants.axes);
+        Ok(Self {
+            constants,
+            integrator: Integrator::default(),
+            position: Vector3::zeros(),
+            attitude,
+            velocity: Twist::zero(),
+            rate: Twist::zero(),
+        })
+    }
+
+    /// Orientation of the body's frame.
+    pub fn orientation(&self) -> UnitQuaternion<f64> {
+        self.attitude * UnitQuaternion::from_rotation_matrix(&self.constants.axes).inverse()
+    }
+
+    /// Turns the body's frame; its velocities in world axes stay.
+    pub fn set_orientation(&mut self, orientation: UnitQuaternion<f64>) {
+        let (linear, angular) = (self.linear_velocity(), self.angular_velocity());
+        self.attitude =
+            orientation * UnitQuaternion::from_rotation_matrix(&self.constants.axes);
+        self.set_velocity(linear, angular);
+    }
+
+    /// Velocity of the center of mass, m/s, world axes.
+    pub fn linear_velocity(&self) -> Vector3<f64> {
+        self.attitude * self.velocity.linear
+    }
+
+    /// Angular velocity, rad/s, world axes.
+    pub fn angular_velocity(&self) -> Vector3<f64> {
+        self.attitude * self.velocity.angular / self.constants.length
+    }
+
+    /// Sets both velocities, world axes, m/s and rad/s.
+    pub fn set_velocity(&mut self, linear: Vector3<f64>, angular: Vector3<f64>) {
+        self.velocity = Twist {
+            linear: self.attitude.inverse() * linear,
+            angular: self.attitude.inverse() * angular * self.constants.length,
+        };
+        self.rate = Twist::zero();
+    }
+
+    /// Plate normal (the shortest principal axis), world axes.
+    pub fn normal(&self) -> Vector3<f64> {
+        self.attitude * Vector3::z()
+    }
+
+    /// Longest principal axis, world axes.
+    pub fn long_axis(&self) -> Vector3<f64> {
+        self.attitude * Vector3::x()
+    }
+
+    /// Advances by `dt` seconds in a fluid at rest under `gravity` (m/s², world axes). Any `dt` is
+    /// stable; a `dt` that is not positive does nothing.
+    pub fn step(&mut self, dt: f64, gravity: Vector3<f64>) {
+        self.step_in(dt, gravity, &FlowSample::default());
+    }
+
+    /// Advances by `dt` in a fluid that moves uniformly with `flow` during the step.
+    pub fn step_in(&mut self, dt: f64, gravity: Vector3<f64>, flow: &FlowSample) {
+        if !(dt > 0.0) {
+            return;
+        }
+        let c = &self.constants;
+        let stream = math::to_f64(flow.velocity);
+        let weight = gravity * (c.dry.mass / c.mass);
+        let buoyancy = gravity * (-c.displaced_mass / c.mass);
+        let load = Load {
+            force: weight + buoyancy,
+            torque: Vector3::zeros(),
+            buoyancy,
+            buoyancy_arm: c.axes.inverse() * c.buoyancy_arm / c.length,
+            fluid_spin: math::to_f64(flow.vorticity) * (0.5 * c.length),
+        };
+        let mut motion = Motion {
+            attitude: *self.attitude.quaternion(),
+            displacement: Vector3::zeros(),
+            velocity: self.velocity,
+            rate: self.rate,
+        };
+        motion.velocity.linear -= rotate_back(&motion.attitude, &stream);
+        let inertia = &c.inertia;
+        let count = substeps(inertia, &motion, &load, dt, &self.integrator);
+        let (most, iterations) = (count as u32, self.integrator.iterations);
+        let m = &mut motion;
+        match &c.law {
+            LawConstants::Inviscid => {
+                advance(inertia, &Inviscid, &load, m, dt, count, most, iterations);
+            }
+            LawConstants::Physical(law) => {
+                advance(inertia, law, &load, m, dt, count, most, iterations);
+            }
+            LawConstants::Thesis(law) => {
+                advance(inertia, law, &load, m, dt, count, most, iterations);
+            }
+            LawConstants::Stochastic(law) => {
+                advance(inertia, law, &load, m, dt, count, most, iterations);
+            }
+        }
+        self.attitude = UnitQuaternion::new_normalize(motion.attitude);
+        self.velocity = motion.velocity;
+        self.velocity.linear += rotate_back(self.attitude.quaternion(), &stream);
+        self.rate = motion.rate;
+        self.position += motion.displacement + stream * dt;
+    }
+
+    /// Momentum of body and fluid in plate axes, kg·m/s and kg·m²/s.
+    fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let p = self.constants.inertia.mass_matrix().apply(&self.velocity);
+        let scale = self.constants.mass;
+        (p.linear * scale, p.angular * (scale * self.constants.length))
+    }
+
+    /// Kinetic energy of the body and of the fluid at rest that it sets in motion, J.
+    pub fn kinetic_energy(&self) -> f64 {
+        let (p, h) = self.momentum();
+        0.5 * (p.dot(&self.velocity.linear)
+            + h.dot(&self.velocity.angular) / self.constants.length)
+    }
+
+    /// World impulse of body and fluid, kg·m/s.
+    pub fn impulse(&self) -> Vector3<f64> {
+        self.attitude * self.momentum().0
+    }
+
+    /// World moment of impulse of body and fluid about the origin, kg·m²/s.
+    pub fn impulse_moment(&self) -> Vector3<f64> {
+        let (p, h) = self.momentum();
+        self.attitude * h + self.position.cross(&(self.attitude * p))
+    }
+}
+
+/// A unit quaternion is rotated by the same function as the lanes use.
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotation_agrees_with_nalgebra() {
+        let q = UnitQuaternion::from_euler_angles(0.3, -1.0, 2.0);
+        let raw = Quaternion::new(q.w, q.i, q.j, q.k);
+        let v = Vector3::new(1.0, -2.0, 0.5);
+        assert!((rotate(&raw, &v) - q * v).norm() < 1e-14);
+        assert!((rotate_back(&raw, &v) - q.inverse() * v).norm() < 1e-14);
+    }
+}

@@ -1,0 +1,8 @@
+//! Equations of motion of one body, and their integrator.
+
+pub mod free_body;
+pub(crate) mod integrate;
+pub(crate) mod kirchhoff;
+
+pub use free_body::FreeBody;
+pub use integrate::Integrator;

@@ -1,0 +1,400 @@
+//! The default law: physical, passive, calibrated against experiments.
+
+use super::{Evaluate, ViscousTerms, safe_inverse};
+use crate::Error;
+use crate::fluid::Fluid;
+use crate::hydro::HydroProperties;
+use crate::math::{Scalar, scalar_struct};
+use rapier3d::na::Vector3;
+use std::f64::consts::PI;
+
+/// Coefficients of the default viscous law, dimensionless. One set serves every thin body: plates
+/// in water, paper in air, discs of any Reynolds number.
+///
+/// With n the plate normal, `c` the chord along the motion, `A` the planform area, `AR` the aspect
+/// ratio span²/A, `Re = |u|c/ν`, and the velocity relative to the fluid **v** taken at the center
+/// of pressure `p = χ c u_t/|u|`, at the angle of attack `sin α = |v·n|/|v|`:
+///
+/// * drag `−½ρA|v| (C_D0 + (C_D90 − C_D0) sin²α) v` with skin friction and edges in `C_D0` and the
+///   broadside value `C_D90` from the measured disc curve; both pass to Stokes as Re → 0;
+/// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, from attached flow at small α to stalled flow,
+///   reduced by the aspect ratio, and absent below the onset of the wake (Re ≈ 95);
+/// * rotational lift `ρAc C_R (1 − ε sin²α) ω_t × v`;
+/// * damping of the rotation by the pressure on the two halves of the plate and by friction;
+/// * the Munk moment of the added mass weakened to `munk`, because separated flow does not recover
+///   the pressure that makes it.
+///
+/// No term can add energy to body and fluid: drag opposes v, the lifts are perpendicular to it, and
+/// the torque is that of the same force at the same point.
+///
+/// The numbers come from a global search against falling plates in water (Andersen, Pesavento &
+/// Wang 2005), the regime map of discs (Field et al. 1997) and falling paper (Howison et al. 2020).
+///
+/// Bodies that are not plates blend, by thickness, into the drag curve of a sphere (Clift &
+/// Gauvin 1971) on their actual shadow, with a Magnus force instead of the plate's lifts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct PhysicalLaw {
+    /// χ: travel of the center of pressure toward the leading edge, in chords.
+    pub pressure_travel: f64,
+    /// C_attached: lift slope of attached flow, before the aspect ratio's `AR/(AR + λ₁)`.
+    pub attached_lift: f64,
+    /// λ₁.
+    pub attached_aspect: f64,
+    /// C_stalled: lift coefficient of separated flow, before `AR/(AR + λ₂)`.
+    pub stalled_lift: f64,
+    /// λ₂.
+    pub stalled_aspect: f64,
+    /// s₀: sine of the angle of attack at which the flow stalls.
+    pub stall_sine: f64,
+    /// δ: width of the stall in sin α.
+    pub stall_width: f64,
+    /// C_R: rotational lift, before `AR/(AR + λ_R)`.
+    pub rotational_lift: f64,
+    /// λ_R.
+    pub rotational_aspect: f64,
+    /// ε: loss of rotational lift broadside on.
+    pub rotational_stall: f64,
+    /// k_M ∈ [0, 1]: share of the added mass' inertial coupling (Munk moment) that is felt.
+    pub munk: f64,
+    /// k₁: damping of rotation by translation.
+    pub translation_damping: f64,
+    /// k₂: damping of rotation by rotation.
+    pub rotation_damping: f64,
+    /// k_f: skin friction, `k_f Re^−½`.
+    pub friction: f64,
+    /// k_e: pressure drag of the edges, per thickness over chord.
+    pub edge_drag: f64,
+    /// Re_L: onset of the wake's lift, `1/(1 + (Re_L/Re)⁷)`.
+    pub lift_onset: f64,
+    /// Re_D: below it rotation is damped more, `1 + (Re_D/Re)^1.5`.
+    pub damping_onset: f64,
+    /// C_M ∈ [½, 1]: Magnus force `C_M ρV ω × u` of bodies that are not plates.
+    pub magnus: f64,
+}
+
+impl Default for PhysicalLaw {
+    fn default() -> Self {
+        Self {
+            pressure_travel: 0.112,
+            attached_lift: PI,
+            attached_aspect: 1.85,
+            stalled_lift: 0.65,
+            stalled_aspect: 0.5,
+            stall_sine: 0.74,
+            stall_width: 0.35,
+            rotational_lift: 0.80,
+            rotational_aspect: 1.5,
+            rotational_stall: 0.5,
+            munk: 0.16,
+            translation_damping: 0.655,
+            rotation_damping: 1.35,
+            friction: 5.4,
+            edge_drag: 0.15,
+            lift_onset: 95.0,
+            damping_onset: 25.0,
+            magnus: 0.5,
+        }
+    }
+}
+
+scalar_struct! {
+    /// What [`PhysicalLaw`] needs of one body in one fluid. Plate axes, lengths in units of the
+    /// body's length scale L, everything divided by its mass scale.
+    pub(crate) struct PhysicalConstants {
+        /// ½ρA, 1/m.
+        dynamic_area,
+        /// Squared half extent of the planform along x, L².
+        extent_x2,
+        /// Squared half extent of the planform along y, L².
+        extent_y2,
+        /// Planform area, L².
+        area,
+        /// Speed × chord × this = Re.
+        reynolds_scale,
+        broadside_plateau,
+        broadside_mid,
+        friction,
+        edge_drag,
+        creeping_x,
+        creeping_y,
+        creeping_z,
+        attached_lift,
+        attached_aspect,
+        stalled_lift,
+        stalled_aspect,
+        stall_sine,
+        stall_rate,
+        rotational_lift,
+        rotational_aspect,
+        rotational_stall,
+        lift_onset,
+        damping_onset,
+        pressure_travel,
+        /// Damping of the rotation about x, y, z by the pressure, per speed (1/m) …
+        damping_u_x,
+        damping_u_y,
+        damping_u_z,
+        /// … and per spin in units of speed (1/m).
+        damping_w_x,
+        damping_w_y,
+        damping_w_z,
+        spin_friction,
+        creeping_spin_x,
+        creeping_spin_y,
+        creeping_spin_z,
+        /// Share of the plate's drag; the rest is that of a bluff body.
+        plate_share,
+        /// Squares of the bluff body's share of ½ρ × its shadow along x, y, z.
+        shadow_x2,
+        shadow_y2,
+        shadow_z2,
+        bluff_plateau,
+        /// Speed × this = Re on the volume's diameter.
+        bluff_reynolds_scale,
+        /// Magnus force per spin in units of speed, 1/m.
+        magnus,
+    }
+}
+
+/// Exponent and factor of the disc's drag between creeping flow and its plateau:
+/// `C_D = (64/πRe)(1 + 0.138 Re^0.792)` for Re < 133 (Pitter, Pruppacher & Hamielec 1973), of which
+/// the first term is Stokes' and lives in the creeping resistance.
+const DISC_MID: (f64, f64) = (64.0 / PI * 0.138, 0.792 - 1.0);
+/// Broadside drag coefficient of a disc above Re ≈ 10³ (Hoerner, *Fluid-Dynamic Drag*).
+const DISC_PLATEAU: f64 = 1.17;
+
+/// Broadside drag coefficient of a rectangle by its slenderness b/a ≥ 1, linear in a/b between the
+/// tabulated 1, 5, 10, ∞ (DNV-RP-C205, appendix E); for a plate that is rounder than a rectangle,
+/// `fill` (planform over its box: π/4 for ellipses) leads over to the disc.
+fn broadside_drag(slenderness: f64, fill: f64) -> f64 {
+    const TABLE: [(f64, f64); 4] = [(0.0, 1.90), (0.1, 1.50), (0.2, 1.20), (1.0, 1.16)];
+    let x = (1.0 / slenderness).clamp(0.0, 1.0);
+    let rectangle = TABLE
+        .windows(2)
+        .find(|w| x <= w[1].0)
+        .map_or(1.16, |w| w[0].1 + (w[1].1 - w[0].1) * (x - w[0].0) / (w[1].0 - w[0].0));
+    let roundness = ((1.0 - fill) / (1.0 - PI / 4.0)).clamp(0.0, 1.0);
+    rectangle + roundness * (DISC_PLATEAU - 1.16)
+}
+
+/// 1 for thin, 0 for as thick as wide: C¹ between the ratios ¼ and 1, so that every plate of the
+/// calibration (thinner than 1/7) is purely a plate.
+fn thinness(ratio: f64) -> f64 {
+    let t = ((ratio - 0.25) / 0.75).clamp(0.0, 1.0);
+    1.0 - t * t * (3.0 - 2.0 * t)
+}
+
+impl PhysicalLaw {
+    /// Checks every coefficient.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] names the first coefficient that is not finite, is negative, or
+    /// (`munk`, `rotational_stall`) exceeds 1.
+    pub fn check(&self) -> Result<(), Error> {
+        let fields = [
+            ("pressure_travel", self.pressure_travel),
+            ("attached_lift", self.attached_lift),
+            ("attached_aspect", self.attached_aspect),
+            ("stalled_lift", self.stalled_lift),
+            ("stalled_aspect", self.stalled_aspect),
+            ("stall_sine", self.stall_sine),
+            ("rotational_lift", self.rotational_lift),
+            ("rotational_aspect", self.rotational_aspect),
+            ("translation_damping", self.translation_damping),
+            ("rotation_damping", self.rotation_damping),
+            ("friction", self.friction),
+            ("edge_drag", self.edge_drag),
+            ("lift_onset", self.lift_onset),
+            ("damping_onset", self.damping_onset),
+            ("magnus", self.magnus),
+        ];
+        for (parameter, value) in fields {
+            Error::check_range(parameter, value, 0.0, f64::MAX)?;
+        }
+        Error::check_range("munk", self.munk, 0.0, 1.0)?;
+        Error::check_range("rotational_stall", self.rotational_stall, 0.0, 1.0)?;
+        Error::check_positive("stall_width", self.stall_width)?;
+        Ok(())
+    }
+
+    /// The constants of one body. `mass` and `length` are its scales.
+    pub(crate) fn prepare(
+        &self,
+        hydro: &HydroProperties,
+        fluid: &Fluid,
+        mass: f64,
+        length: f64,
+    ) -> PhysicalConstants<f64> {
+        let rho = f64::from(fluid.density());
+        let nu = f64::from(fluid.kinematic_viscosity());
+        let plate = &hydro.planform;
+        let proxy = &hydro.proxy;
+        let [a, b, c]: [f64; 3] = proxy.semi_axes.into();
+        let creeping = proxy.stokes_resistance();
+        let drag = creeping.linear * (rho * nu / mass);
+        let spin_drag = creeping.angular * (rho * nu / (mass * length * length));
+        let share = thinness(c / b);
+
+        let slenderness = plate.half_extents.x / plate.half_extents.y;
+        let fill = plate.area / (4.0 * plate.half_extents.x * plate.half_extents.y);
+        let plateau = broadside_drag(slenderness, fill);
+        // Pressure on the two halves of a plate that rotates: ½ρC (I₂ k₁|u| + I₃ k₂|ω|), per axis
+        // by how flat the body is seen along it. Spinning about z, a flat plate shows only its
+        // edge: the shadow of the proxy in the xz plane.
+        let pressure = 0.5 * rho * plateau / mass;
+        let edge_on = (PI * a.powi(3) * c / 4.0, 8.0 / 15.0 * a.powi(4) * c);
+        let flat = [thinness(c / b), thinness(c / a), thinness(b / a)];
+        let second = [plate.second_moment.x, plate.second_moment.y, edge_on.0];
+        let third = [plate.third_moment.x, plate.third_moment.y, edge_on.1];
+        let by_u = |i: usize| {
+            pressure * flat[i] * second[i] * self.translation_damping / length.powi(2)
+        };
+        let by_w =
+            |i: usize| pressure * flat[i] * third[i] * self.rotation_damping / length.powi(3);
+        // A body that fills its box has sharp edges, where the flow separates.
+        let edges = ((hydro.box_fill() - PI / 6.0) / (1.0 - PI / 6.0)).clamp(0.0, 1.0);
+        let shadow = |axes: f64| ((1.0 - share) * 0.5 * rho * PI * axes / mass).powi(2);
+        let diameter = 2.0 * (a * b * c).cbrt();
+
+        PhysicalConstants {
+            dynamic_area: 0.5 * rho * plate.area / mass,
+            extent_x2: (plate.half_extents.x / length).powi(2),
+            extent_y2: (plate.half_extents.y / length).powi(2),
+            area: plate.area / (length * length),
+            reynolds_scale: length / nu,
+            broadside_plateau: plateau,
+            broadside_mid: DISC_MID.0 * plateau / DISC_PLATEAU,
+            friction: self.friction,
+            edge_drag: self.edge_drag * plate.thickness / length,
+            creeping_x: drag.x,
+            creeping_y: drag.y,
+            creeping_z: drag.z,
+            attached_lift: self.attached_lift * share,
+            attached_aspect: self.attached_aspect,
+            stalled_lift: self.stalled_lift * share,
+            stalled_aspect: self.stalled_aspect,
+            stall_sine: self.stall_sine,
+            stall_rate: 2.0 / self.stall_width,
+            rotational_lift: self.rotational_lift * share,
+            rotational_aspect: self.rotational_aspect,
+            rotational_stall: self.rotational_stall,
+            lift_onset: self.lift_onset,
+            damping_onset: self.damping_onset,
+            pressure_travel: self.pressure_travel * share,
+            damping_u_x: by_u(0),
+            damping_u_y: by_u(1),
+            damping_u_z: by_u(2),
+            damping_w_x: by_w(0),
+            damping_w_y: by_w(1),
+            damping_w_z: by_w(2),
+            spin_friction: 0.005 * rho * (plate.second_moment.x + plate.second_moment.y)
+                / (mass * length * length),
+            creeping_spin_x: spin_drag.x,
+            creeping_spin_y: spin_drag.y,
+            creeping_spin_z: spin_drag.z,
+            plate_share: share,
+            shadow_x2: shadow(b * c),
+            shadow_y2: shadow(a * c),
+            shadow_z2: shadow(a * b),
+            bluff_plateau: 0.42 + edges * (1.05 - 0.42),
+            bluff_reynolds_scale: diameter / nu,
+            magnus: self.magnus * rho * hydro.volume * (1.0 - share) / (mass * length),
+        }
+    }
+}
+
+impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
+    #[inline(always)]
+    fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
+        let one = T::one();
+        let tangential2 = u.x * u.x + u.y * u.y;
+        let speed = (tangential2 + u.z * u.z).root();
+        let per_speed = safe_inverse(speed);
+
+        // Chord and span along the motion; for motion along n any in-plane direction will do.
+        let tiny = T::lit(1e-12);
+        let (ux2, uy2) = (u.x * u.x + tiny, u.y * u.y + tiny);
+        let per_tangential2 = T::lit(4.0) / (ux2 + uy2);
+        let chord2 = (self.extent_x2 * ux2 + self.extent_y2 * uy2) * per_tangential2;
+        let span2 = (self.extent_x2 * uy2 + self.extent_y2 * ux2) * per_tangential2;
+        let chord = chord2.root();
+        let aspect = span2 / self.area;
+        let re = (speed * chord * self.reynolds_scale).larger(T::lit(1e-3));
+
+        // Pressure point and its velocity.
+        let travel = self.pressure_travel * chord * per_speed;
+        let arm = Vector3::new(travel * u.x, travel * u.y, T::zero());
+        let vz = u.z + w.x * arm.y - w.y * arm.x;
+        let v_speed = (tangential2 + vz * vz).root();
+        let per_v = safe_inverse(v_speed);
+        let sine = vz * per_v;
+        let sine2 = sine * sine;
+
+        // Drag of the plate. Its creeping part is the linear resistance; what is left broadside is
+        // the larger of the disc's mid range and its plateau.
+        let log_re = re.logarithm();
+        let mid = self.broadside_mid * (log_re * T::lit(DISC_MID.1)).exponential();
+        let creeping_share = self.creeping_z * per_speed / self.dynamic_area;
+        let broadside = mid.larger(self.broadside_plateau - creeping_share);
+        let edgewise = self.friction / re.root() + self.edge_drag / chord;
+        let plate = self.dynamic_area * v_speed * (edgewise + (broadside - edgewise) * sine2);
+
+        // Drag of a bluff body on its shadow: Clift & Gauvin without the Stokes term.
+        let shadow_speed = (self.shadow_x2 * u.x * u.x
+            + self.shadow_y2 * u.y * u.y
+            + self.shadow_z2 * u.z * u.z)
+            .root();
+        let log_bluff = (speed * self.bluff_reynolds_scale)
+            .larger(T::lit(1e-3))
+            .logarithm();
+        let bluff = T::lit(3.6) * (log_bluff * T::lit(-0.313)).exponential()
+            + self.bluff_plateau / (one + T::lit(42500.0) * (log_bluff * T::lit(-1.16)).exponential());
+        let drag = self.plate_share * plate + shadow_speed * bluff;
+
+        // Lifts.
+        let onset = self.lift_onset / re;
+        let onset2 = onset * onset;
+        let wake = one / (one + onset2 * onset2 * onset2 * onset);
+        let stall = one + (self.stall_rate * (sine.simd_abs() - self.stall_sine)).exponential();
+        let attached = one / stall;
+        let lift = attached * self.attached_lift * aspect / (aspect + self.attached_aspect)
+            + (one - attached) * self.stalled_lift * aspect / (aspect + self.stalled_aspect);
+        let density_area = self.dynamic_area + self.dynamic_area;
+        let translational = density_area * lift * wake * sine;
+        let rotational = density_area * chord * self.rotational_lift * wake * aspect
+            / (aspect + self.rotational_aspect)
+            * (one - self.rotational_stall * sine2);
+
+        // Damping. √(Re² + 1) keeps the low-Reynolds increase finite in a body at rest, where the
+        // creeping resistance has long taken over.
+        let onset = self.damping_onset / (re * re + one).root();
+        let by_speed = speed * (one + onset * onset.root());
+        let spin = (w.x * w.x + w.y * w.y).root();
+        let spin_z = w.z.simd_abs();
+        let friction = self.spin_friction * (speed + chord * spin_z);
+        ViscousTerms {
+            drag,
+            creeping: Vector3::new(self.creeping_x, self.creeping_y, self.creeping_z),
+            translational_lift: Vector3::new(-u.y, u.x, T::zero()) * translational,
+            rotational_lift: Vector3::new(
+                rotational * w.x + self.magnus * w.x,
+                rotational * w.y + self.magnus * w.y,
+                self.magnus * w.z,
+            ),
+            arm,
+            arm_moves: true,
+            damping: Vector3::new(
+                self.damping_u_x * by_speed + self.damping_w_x * spin + self.creeping_spin_x,
+                self.damping_u_y * by_speed + self.damping_w_y * spin + self.creeping_spin_y,
+                self.damping_u_z * by_speed
+                    + self.damping_w_z * spin_z
+                    + friction
+                    + self.creeping_spin_z,
+            ),
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! The thesis' law: three components with instantaneous coefficients (§ 5.3.2).
+
+use super::{Evaluate, PhysicalLaw, ViscousTerms, physical::PhysicalConstants, safe_inverse, thesis_arm};
+use crate::Error;
+use crate::fluid::Fluid;
+use crate::hydro::HydroProperties;
+use crate::math::{Scalar, scalar_struct};
+use rapier3d::na::Vector3;
+use std::f64::consts::PI;
+
+/// Drag, rotational lift and translational lift with coefficients that follow the angle of attack,
+/// `(C_D sin²α, C_L1 sin 2α, C_L2 cos 2α)`, along û, ω × u and (ω × u) × u (thesis (5.15)–(5.17)).
+///
+/// The control parameters C̃ are meant to be varied: chapter 5 of the thesis trains motion patterns
+/// over them. As printed the law is undefined where ω ∥ u, and it pumps energy into light bodies (a
+/// card of 300 kg/m³ spins up past 1000 rad/s); the two constructors differ in what they do about
+/// that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct ThesisLaw {
+    /// C_D: drag coefficient broadside on.
+    pub drag: f64,
+    /// C_L1: amplitude of the lift along ω × u.
+    pub rotational_lift: f64,
+    /// C_L2: amplitude of the lift along (ω × u) × u.
+    pub translational_lift: f64,
+    /// κ: the unit vector of ω × u is regularised to `ω × u / (|ω × u| + κ |u|²/L)`, with L the
+    /// major semi-axis, so that the lifts fade where the body hardly turns.
+    pub regularisation: f64,
+    /// Share of the rotational damping of the default law, in [0, 1] or above.
+    pub damping: f64,
+}
+
+impl ThesisLaw {
+    /// The law for use: regularised and damped. C̃ = (C_D, C_L1, C_L2).
+    pub fn new([drag, rotational_lift, translational_lift]: [f64; 3]) -> Self {
+        Self {
+            drag,
+            rotational_lift,
+            translational_lift,
+            regularisation: 0.05,
+            damping: 1.0,
+        }
+    }
+
+    /// The law as printed, for comparison with the thesis: regularised by 10⁻⁹ only, undamped.
+    /// **It can blow up**: the step then drops the force rather than pass on a NaN.
+    pub fn printed(coefficients: [f64; 3]) -> Self {
+        Self {
+            regularisation: 1e-9,
+            damping: 0.0,
+            ..Self::new(coefficients)
+        }
+    }
+
+    /// Steady descent of the card of thesis Fig. 5.6a.
+    pub const STEADY_DESCENT: [f64; 3] = [1.81, 0.31, 0.31];
+    /// Zigzag (flutter) of the card of thesis Fig. 5.6c.
+    pub const ZIGZAG: [f64; 3] = [0.31, 0.91, 0.61];
+    /// Autorotation with zigzag (chaotic) of the card of thesis Fig. 5.6b.
+    pub const AUTOROTATION_ZIGZAG: [f64; 3] = [0.61, 1.81, 1.21];
+    /// Autorotation (tumbling) of the card of thesis Fig. 5.6d.
+    pub const AUTOROTATION: [f64; 3] = [0.61, 2.71, 0.91];
+    /// Fit to Jones et al. 2013 (thesis Fig. 5.4, data 1).
+    pub const FIG_5_4_DATA_1: [f64; 3] = [0.26, 2.98, 0.59];
+    /// Fit to Wang & Pesavento 2003 (thesis Fig. 5.4, data 2).
+    pub const FIG_5_4_DATA_2: [f64; 3] = [2.0, 1.02, 0.70];
+    /// Fit to Ol et al. 2009 (thesis Fig. 5.4, data 3).
+    pub const FIG_5_4_DATA_3: [f64; 3] = [2.70, 1.31, 0.0];
+    /// Andersen, Pesavento & Wang 2005, middle of the ranges of thesis Table 5.1.
+    pub const ANDERSEN_2005: [f64; 3] = [1.82, 1.0, 1.25];
+    /// Paoletti & Mahadevan 2011 (thesis Table 5.1).
+    pub const PAOLETTI_2011: [f64; 3] = [0.4, 1.2, PI];
+    /// Varshney, Chang & Wang 2013 (thesis Table 5.1).
+    pub const VARSHNEY_2013: [f64; 3] = [1.06, 0.92, 0.32];
+    /// Huang et al. 2013 (thesis Table 5.1).
+    pub const HUANG_2013: [f64; 3] = [0.3, 4.5, 1.8];
+    /// Hu & Wang 2014, middle of the ranges of thesis Table 5.1.
+    pub const HU_2014: [f64; 3] = [1.9, PI, PI / 2.0];
+
+    /// Checks every coefficient.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a coefficient is not finite, or drag, regularisation or damping
+    /// are negative.
+    pub fn check(&self) -> Result<(), Error> {
+        Error::check_range("drag", self.drag, 0.0, f64::MAX)?;
+        let (low, high) = (f64::MIN, f64::MAX);
+        Error::check_range("rotational_lift", self.rotational_lift, low, high)?;
+        Error::check_range("translational_lift", self.translational_lift, low, high)?;
+        Error::check_range("regularisation", self.regularisation, 0.0, high)?;
+        Error::check_range("damping", self.damping, 0.0, high)?;
+        Ok(())
+    }
+
+    pub(crate) fn prepare(
+        &self,
+        hydro: &HydroProperties,
+        fluid: &Fluid,
+        mass: f64,
+        length: f64,
+    ) -> ThesisConstants<f64> {
+        let rho = f64::from(fluid.density());
+        let damping = PhysicalLaw::default().prepare(hydro, fluid, mass, length);
+        let major = hydro.planform.half_extents.x / length;
+        ThesisConstants {
+            dynamic_area: 0.5 * rho * hydro.planform.area / mass,
+            drag: self.drag,
+            rotational_lift: self.rotational_lift,
+            translational_lift: self.translational_lift,
+            // |ω × u| is compared in units of speed², hence the division by the major semi-axis.
+            regularisation: self.regularisation / major,
+            major,
+            ..ThesisConstants::damped(&damping, self.damping)
+        }
+    }
+}
+
+scalar_struct! {
+    /// What [`ThesisLaw`] needs of one body in one fluid; units as in
+    /// [`PhysicalConstants`](super::physical).
+    pub(crate) struct ThesisConstants {
+        dynamic_area,
+        drag,
+        rotational_lift,
+        translational_lift,
+        regularisation,
+        /// Major semi-axis, in L.
+        major,
+        damping_u_x,
+        damping_u_y,
+        damping_u_z,
+        damping_w_x,
+        damping_w_y,
+        damping_w_z,
+        creeping_spin_x,
+        creeping_spin_y,
+        creeping_spin_z,
+    }
+}
+
+impl ThesisConstants<f64> {
+    /// Only the rotational damping of the default law, times `share`.
+    fn damped(law: &PhysicalConstants<f64>, share: f64) -> Self {
+        Self {
+            dynamic_area: 0.0,
+            drag: 0.0,
+            rotational_lift: 0.0,
+            translational_lift: 0.0,
+            regularisation: 0.0,
+            major: 0.0,
+            damping_u_x: share * law.damping_u_x,
+            damping_u_y: share * law.damping_u_y,
+            damping_u_z: share * law.damping_u_z,
+            damping_w_x: share * law.damping_w_x,
+            damping_w_y: share * law.damping_w_y,
+            damping_w_z: share * law.damping_w_z,
+            creeping_spin_x: share * law.creeping_spin_x,
+            creeping_spin_y: share * law.creeping_spin_y,
+            creeping_spin_z: share * law.creeping_spin_z,
+        }
+    }
+}
+
+impl<T: Scalar> Evaluate<T> for ThesisConstants<T> {
+    #[inline(always)]
+    fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
+        let tangential2 = u.x * u.x + u.y * u.y;
+        let speed2 = tangential2 + u.z * u.z;
+        let speed = speed2.root();
+        let per_speed2 = safe_inverse(speed2);
+        let sine2 = u.z * u.z * per_speed2;
+        let sine_double = T::lit(2.0) * u.z.simd_abs() * tangential2.root() * per_speed2;
+        let cosine_double = (tangential2 - u.z * u.z) * per_speed2;
+
+        let turning = w.cross(u);
+        let size = (turning.x * turning.x + turning.y * turning.y + turning.z * turning.z).root();
+        let per_turning = safe_inverse(size + self.regularisation * speed2);
+        // ê2 = (ω × u)/|…| and ê3 = ((ω × u) × u)/|…| are W × u with W along ω and ω × u.
+        let rotational =
+            self.dynamic_area * speed2 * self.rotational_lift * sine_double * per_turning;
+        let translational =
+            self.dynamic_area * speed * self.translational_lift * cosine_double * per_turning;
+
+        let spin = (w.x * w.x + w.y * w.y).root();
+        let spin_z = w.z.simd_abs();
+        ViscousTerms {
+            drag: self.dynamic_area * speed * self.drag * sine2,
+            creeping: Vector3::repeat(T::zero()),
+            translational_lift: turning * translational,
+            rotational_lift: w * rotational,
+            arm: thesis_arm(u, self.major),
+            arm_moves: false,
+            damping: Vector3::new(
+                self.damping_u_x * speed + self.damping_w_x * spin + self.creeping_spin_x,
+                self.damping_u_y * speed + self.damping_w_y * spin + self.creeping_spin_y,
+                self.damping_u_z * speed + self.damping_w_z * spin_z + self.creeping_spin_z,
+            ),
+        }
+    }
+}
