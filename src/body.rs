@@ -80,8 +80,7 @@ impl DryMass {
         let about = |part: &Self| {
             let d = part.center - center;
             part.inertia
-                + (Matrix3::from_diagonal_element(d.norm_squared()) - d * d.transpose())
-                    * part.mass
+                + (Matrix3::from_diagonal_element(d.norm_squared()) - d * d.transpose()) * part.mass
         };
         Self {
             mass,
@@ -139,9 +138,6 @@ scalar_struct! {
         center_x, center_y, center_z,
         /// 1/L, 1/m.
         per_length,
-        /// Bounds of the fastest response: 1/λ_min of 𝕄₁₁ and 𝕄₂₂.
-        per_min_mass,
-        per_min_inertia,
         /// Chord that convection is measured by, m.
         chord,
     }
@@ -196,7 +192,6 @@ impl BodyConstants {
         let m12 = plate.coupling / (mass * length);
         let m22 = (plate.angular + dry_inertia) / (mass * length * length);
         let center = turn * (hydro.planform.center - dry.center) / length;
-        let slowest = |m: &Matrix3<f64>| 1.0 / m.symmetric_eigenvalues().min();
         let inertia = InertiaConstants {
             m11_xx: m11[(0, 0)],
             m11_xy: m11[(0, 1)],
@@ -225,8 +220,6 @@ impl BodyConstants {
             center_y: center.y,
             center_z: center.z,
             per_length: 1.0 / length,
-            per_min_mass: slowest(&m11),
-            per_min_inertia: slowest(&m22),
             chord: 2.0 * extents.y,
         };
         let law = match &body.law {
@@ -234,7 +227,9 @@ impl BodyConstants {
             ViscousLaw::Physical(law) => {
                 LawConstants::Physical(law.prepare(hydro, fluid, mass, length))
             }
-            ViscousLaw::Thesis(law) => LawConstants::Thesis(law.prepare(hydro, fluid, mass, length)),
+            ViscousLaw::Thesis(law) => {
+                LawConstants::Thesis(law.prepare(hydro, fluid, mass, length))
+            }
             ViscousLaw::Stochastic(law) => {
                 LawConstants::Stochastic(law.prepare(hydro, fluid, mass, length))
             }

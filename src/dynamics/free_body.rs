@@ -53,8 +53,7 @@ impl FreeBody {
     /// Turns the body's frame; its velocities in world axes stay.
     pub fn set_orientation(&mut self, orientation: UnitQuaternion<f64>) {
         let (linear, angular) = (self.linear_velocity(), self.angular_velocity());
-        self.attitude =
-            orientation * UnitQuaternion::from_rotation_matrix(&self.constants.axes);
+        self.attitude = orientation * UnitQuaternion::from_rotation_matrix(&self.constants.axes);
         self.set_velocity(linear, angular);
     }
 
@@ -145,14 +144,16 @@ impl FreeBody {
     fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
         let p = self.constants.inertia.mass_matrix().apply(&self.velocity);
         let scale = self.constants.mass;
-        (p.linear * scale, p.angular * (scale * self.constants.length))
+        (
+            p.linear * scale,
+            p.angular * (scale * self.constants.length),
+        )
     }
 
     /// Kinetic energy of the body and of the fluid at rest that it sets in motion, J.
     pub fn kinetic_energy(&self) -> f64 {
         let (p, h) = self.momentum();
-        0.5 * (p.dot(&self.velocity.linear)
-            + h.dot(&self.velocity.angular) / self.constants.length)
+        0.5 * (p.dot(&self.velocity.linear) + h.dot(&self.velocity.angular) / self.constants.length)
     }
 
     /// World impulse of body and fluid, kg·m/s.

@@ -19,7 +19,7 @@
 
 use super::kirchhoff::Twist;
 use crate::body::InertiaConstants;
-use crate::hydro::viscous::{Evaluate, ViscousTerms};
+use crate::hydro::viscous::{Evaluate, ViscousTerms, safe_inverse};
 use crate::math::Scalar;
 use rapier3d::na::{Quaternion, Vector3};
 
@@ -30,9 +30,9 @@ use rapier3d::na::{Quaternion, Vector3};
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct Integrator {
-    /// A substep turns the body by at most this angle, rad (default 0.35).
+    /// A substep turns the body by at most this angle, rad (default 0.15).
     pub max_turn: f64,
-    /// A substep moves the body by at most this many chords (default 0.25).
+    /// A substep moves the body by at most this many chords (default 0.1).
     pub max_travel: f64,
     /// Never more substeps than this in one step (default 16): accuracy gives way, stability does
     /// not depend on it.
@@ -45,8 +45,8 @@ pub struct Integrator {
 impl Default for Integrator {
     fn default() -> Self {
         Self {
-            max_turn: 0.35,
-            max_travel: 0.25,
+            max_turn: 0.15,
+            max_travel: 0.1,
             max_substeps: 16,
             iterations: 1,
         }
@@ -112,7 +112,12 @@ fn turned<T: Scalar>(q: &Quaternion<T>, a: &Vector3<T>) -> Quaternion<T> {
         + product.j * product.j
         + product.k * product.k;
     let per = T::one() / norm2.root();
-    Quaternion::new(product.w * per, product.i * per, product.j * per, product.k * per)
+    Quaternion::new(
+        product.w * per,
+        product.i * per,
+        product.j * per,
+        product.k * per,
+    )
 }
 
 /// The law of a body in an ideal fluid.
@@ -183,10 +188,14 @@ pub(crate) fn substep<T: Scalar>(
             + terms.damping.component_mul(&fluid_spin);
 
         // θ(z) = (3 + z)/(6 + z) follows the exponential integrator's 1/(1 − e^−z) − 1/z.
-        let creeping = terms.creeping.x.larger(terms.creeping.y).larger(terms.creeping.z);
-        let damping = terms.damping.x.larger(terms.damping.y).larger(terms.damping.z);
-        let z = h * ((terms.drag + creeping) * inertia.per_min_mass)
-            .larger(damping * inertia.per_min_inertia);
+        // z: the fastest decay, of the motion as it is and of the rotation about each axis.
+        let u = &middle.linear;
+        let inertial = u.dot(&(mass.m11 * u));
+        let axis = |i: usize| {
+            (terms.creeping[i] / mass.m11[(i, i)]).larger(terms.damping[i] / mass.m22[(i, i)])
+        };
+        let pressure = terms.drag * u.dot(u) * safe_inverse(inertial);
+        let z = h * (pressure + axis(0).larger(axis(1)).larger(axis(2)));
         let theta = (T::lit(3.0) + z) / (T::lit(6.0) + z);
         let scale = theta * h;
         let mut system = mass;
@@ -254,9 +263,8 @@ pub(crate) fn advance<T: Scalar>(
         motion.velocity.angular = keep3(&new.velocity.angular, &old.velocity.angular);
         motion.rate.linear = keep3(&new.rate.linear, &old.rate.linear);
         motion.rate.angular = keep3(&new.rate.angular, &old.rate.angular);
-        motion.attitude = Quaternion::from_vector(
-            new.attitude.coords.zip_map(&old.attitude.coords, keep),
-        );
+        motion.attitude =
+            Quaternion::from_vector(new.attitude.coords.zip_map(&old.attitude.coords, keep));
         done += T::one();
     }
 }

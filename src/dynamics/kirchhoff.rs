@@ -100,9 +100,7 @@ fn inverse3<T: Scalar>(m: &Matrix3<T>) -> Matrix3<T> {
     let determinant = a[0] * bc.x + a[1] * bc.y + a[2] * bc.z;
     debug_assert_eq!((b.len(), c.len()), (3, 3));
     let per = T::one() / determinant;
-    Matrix3::new(
-        bc.x, bc.y, bc.z, ca.x, ca.y, ca.z, ab.x, ab.y, ab.z,
-    ) * per
+    Matrix3::new(bc.x, bc.y, bc.z, ca.x, ca.y, ca.z, ab.x, ab.y, ab.z) * per
 }
 
 impl<T: Scalar> InertiaConstants<T> {
@@ -110,19 +108,40 @@ impl<T: Scalar> InertiaConstants<T> {
     #[inline(always)]
     pub fn mass_matrix(&self) -> Blocks<T> {
         let m12 = Matrix3::new(
-            self.m12_xx, self.m12_xy, self.m12_xz, self.m12_yx, self.m12_yy, self.m12_yz,
-            self.m12_zx, self.m12_zy, self.m12_zz,
+            self.m12_xx,
+            self.m12_xy,
+            self.m12_xz,
+            self.m12_yx,
+            self.m12_yy,
+            self.m12_yz,
+            self.m12_zx,
+            self.m12_zy,
+            self.m12_zz,
         );
         Blocks {
             m11: Matrix3::new(
-                self.m11_xx, self.m11_xy, self.m11_xz, self.m11_xy, self.m11_yy, self.m11_yz,
-                self.m11_xz, self.m11_yz, self.m11_zz,
+                self.m11_xx,
+                self.m11_xy,
+                self.m11_xz,
+                self.m11_xy,
+                self.m11_yy,
+                self.m11_yz,
+                self.m11_xz,
+                self.m11_yz,
+                self.m11_zz,
             ),
             m12,
             m21: m12.transpose(),
             m22: Matrix3::new(
-                self.m22_xx, self.m22_xy, self.m22_xz, self.m22_xy, self.m22_yy, self.m22_yz,
-                self.m22_xz, self.m22_yz, self.m22_zz,
+                self.m22_xx,
+                self.m22_xy,
+                self.m22_xz,
+                self.m22_xy,
+                self.m22_yy,
+                self.m22_yz,
+                self.m22_xz,
+                self.m22_yz,
+                self.m22_zz,
             ),
         }
     }

@@ -88,12 +88,20 @@ fn quadrature(corners: &[Vector3<f64>; 3]) -> impl Iterator<Item = (Vector3<f64>
     (0..SPLIT).flat_map(move |i| {
         (0..SPLIT - i).flat_map(move |j| {
             let (i, j) = (i as f64, j as f64);
-            let upright = [(1.0 / 6.0, 1.0 / 6.0), (2.0 / 3.0, 1.0 / 6.0), (1.0 / 6.0, 2.0 / 3.0)]
-                .map(|(p, q)| (at(i + p, j + q), weight));
+            let upright = [
+                (1.0 / 6.0, 1.0 / 6.0),
+                (2.0 / 3.0, 1.0 / 6.0),
+                (1.0 / 6.0, 2.0 / 3.0),
+            ]
+            .map(|(p, q)| (at(i + p, j + q), weight));
             // The upside-down triangle of the same cell, where there is one.
             let whole = i + j + 2.0 <= SPLIT as f64;
-            let inverted = [(5.0 / 6.0, 5.0 / 6.0), (1.0 / 3.0, 5.0 / 6.0), (5.0 / 6.0, 1.0 / 3.0)]
-                .map(|(p, q)| (at(i + p, j + q), weight));
+            let inverted = [
+                (5.0 / 6.0, 5.0 / 6.0),
+                (1.0 / 3.0, 5.0 / 6.0),
+                (5.0 / 6.0, 1.0 / 3.0),
+            ]
+            .map(|(p, q)| (at(i + p, j + q), weight));
             upright
                 .into_iter()
                 .chain(inverted.into_iter().filter(move |_| whole))

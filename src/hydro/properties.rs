@@ -52,7 +52,8 @@ impl HydroProperties {
     pub fn from_surface(surface: &Surface, reference: Vector3<f64>) -> Self {
         let integrals = surface.volume_integrals();
         let axes = principal_axes(surface, &integrals.second_moment);
-        let shadows = Vector3::from_fn(|i, _| surface.projected_area(axes.matrix().column(i).into()));
+        let shadows =
+            Vector3::from_fn(|i, _| surface.projected_area(axes.matrix().column(i).into()));
         let proxy = ellipsoid_with_shadows(shadows);
         let planform = Planform::new(surface, &integrals, axes);
         let added_mass = proxy

@@ -114,10 +114,16 @@ mod tests {
         for i in -40..=40 {
             let x = i as f32 * 0.5;
             let exact = f64::from(x).exp();
-            assert!((f64::from(x.exponential()) / exact - 1.0).abs() < 5e-7, "exp {x}");
+            assert!(
+                (f64::from(x.exponential()) / exact - 1.0).abs() < 5e-7,
+                "exp {x}"
+            );
             let y = exact as f32;
             let ln = f64::from(y).ln();
-            assert!((f64::from(y.logarithm()) - ln).abs() < 1e-6 * ln.abs().max(1.0), "ln {y}");
+            assert!(
+                (f64::from(y.logarithm()) - ln).abs() < 1e-6 * ln.abs().max(1.0),
+                "ln {y}"
+            );
         }
     }
 }

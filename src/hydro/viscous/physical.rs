@@ -111,6 +111,8 @@ scalar_struct! {
         extent_x2,
         /// Squared half extent of the planform along y, L².
         extent_y2,
+        /// Product of the two half extents, L².
+        extent_product,
         /// Planform area, L².
         area,
         /// Speed × chord × this = Re.
@@ -173,10 +175,9 @@ const DISC_PLATEAU: f64 = 1.17;
 fn broadside_drag(slenderness: f64, fill: f64) -> f64 {
     const TABLE: [(f64, f64); 4] = [(0.0, 1.90), (0.1, 1.50), (0.2, 1.20), (1.0, 1.16)];
     let x = (1.0 / slenderness).clamp(0.0, 1.0);
-    let rectangle = TABLE
-        .windows(2)
-        .find(|w| x <= w[1].0)
-        .map_or(1.16, |w| w[0].1 + (w[1].1 - w[0].1) * (x - w[0].0) / (w[1].0 - w[0].0));
+    let rectangle = TABLE.windows(2).find(|w| x <= w[1].0).map_or(1.16, |w| {
+        w[0].1 + (w[1].1 - w[0].1) * (x - w[0].0) / (w[1].0 - w[0].0)
+    });
     let roundness = ((1.0 - fill) / (1.0 - PI / 4.0)).clamp(0.0, 1.0);
     rectangle + roundness * (DISC_PLATEAU - 1.16)
 }
@@ -250,9 +251,8 @@ impl PhysicalLaw {
         let flat = [thinness(c / b), thinness(c / a), thinness(b / a)];
         let second = [plate.second_moment.x, plate.second_moment.y, edge_on.0];
         let third = [plate.third_moment.x, plate.third_moment.y, edge_on.1];
-        let by_u = |i: usize| {
-            pressure * flat[i] * second[i] * self.translation_damping / length.powi(2)
-        };
+        let by_u =
+            |i: usize| pressure * flat[i] * second[i] * self.translation_damping / length.powi(2);
         let by_w =
             |i: usize| pressure * flat[i] * third[i] * self.rotation_damping / length.powi(3);
         // A body that fills its box has sharp edges, where the flow separates.
@@ -264,6 +264,7 @@ impl PhysicalLaw {
             dynamic_area: 0.5 * rho * plate.area / mass,
             extent_x2: (plate.half_extents.x / length).powi(2),
             extent_y2: (plate.half_extents.y / length).powi(2),
+            extent_product: plate.half_extents.x * plate.half_extents.y / (length * length),
             area: plate.area / (length * length),
             reynolds_scale: length / nu,
             broadside_plateau: plateau,
@@ -315,13 +316,12 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let speed = (tangential2 + u.z * u.z).root();
         let per_speed = safe_inverse(speed);
 
-        // Chord and span along the motion; for motion along n any in-plane direction will do.
+        // Span across the motion, and the chord through the center along it: an ellipse's product
+        // of the two is the same in every direction. For motion along n any direction will do.
         let tiny = T::lit(1e-12);
         let (ux2, uy2) = (u.x * u.x + tiny, u.y * u.y + tiny);
-        let per_tangential2 = T::lit(4.0) / (ux2 + uy2);
-        let chord2 = (self.extent_x2 * ux2 + self.extent_y2 * uy2) * per_tangential2;
-        let span2 = (self.extent_x2 * uy2 + self.extent_y2 * ux2) * per_tangential2;
-        let chord = chord2.root();
+        let span2 = T::lit(4.0) * (self.extent_x2 * uy2 + self.extent_y2 * ux2) / (ux2 + uy2);
+        let chord = T::lit(4.0) * self.extent_product / span2.root();
         let aspect = span2 / self.area;
         let re = (speed * chord * self.reynolds_scale).larger(T::lit(1e-3));
 
@@ -344,15 +344,15 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let plate = self.dynamic_area * v_speed * (edgewise + (broadside - edgewise) * sine2);
 
         // Drag of a bluff body on its shadow: Clift & Gauvin without the Stokes term.
-        let shadow_speed = (self.shadow_x2 * u.x * u.x
-            + self.shadow_y2 * u.y * u.y
-            + self.shadow_z2 * u.z * u.z)
-            .root();
+        let shadow_speed =
+            (self.shadow_x2 * u.x * u.x + self.shadow_y2 * u.y * u.y + self.shadow_z2 * u.z * u.z)
+                .root();
         let log_bluff = (speed * self.bluff_reynolds_scale)
             .larger(T::lit(1e-3))
             .logarithm();
         let bluff = T::lit(3.6) * (log_bluff * T::lit(-0.313)).exponential()
-            + self.bluff_plateau / (one + T::lit(42500.0) * (log_bluff * T::lit(-1.16)).exponential());
+            + self.bluff_plateau
+                / (one + T::lit(42500.0) * (log_bluff * T::lit(-1.16)).exponential());
         let drag = self.plate_share * plate + shadow_speed * bluff;
 
         // Lifts.

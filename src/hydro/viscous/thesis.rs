@@ -1,6 +1,8 @@
 //! The thesis' law: three components with instantaneous coefficients (§ 5.3.2).
 
-use super::{Evaluate, PhysicalLaw, ViscousTerms, physical::PhysicalConstants, safe_inverse, thesis_arm};
+use super::{
+    Evaluate, PhysicalLaw, ViscousTerms, physical::PhysicalConstants, safe_inverse, thesis_arm,
+};
 use crate::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
