@@ -3,6 +3,7 @@
 #![warn(missing_docs)]
 
 pub mod body;
+pub mod coupling;
 pub mod dynamics;
 pub mod error;
 pub mod flow;
@@ -12,6 +13,7 @@ pub mod hydro;
 mod math;
 
 pub use body::{DryMass, ImmersedBody};
+pub use coupling::{Immersion, RapierSets, Warning};
 pub use dynamics::{FreeBody, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;

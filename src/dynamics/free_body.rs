@@ -1,6 +1,6 @@
 //! One free body in f64, without rapier: for training, calibration and tests.
 
-use super::integrate::{Inviscid, Load, Motion, advance, rotate, rotate_back, substeps};
+use super::integrate::{Inviscid, Load, Motion, advance, rotate_back, substeps};
 use super::kirchhoff::Twist;
 use crate::Error;
 use crate::body::{BodyConstants, DryMass, ImmersedBody, LawConstants};
@@ -8,7 +8,7 @@ use crate::dynamics::Integrator;
 use crate::flow::FlowSample;
 use crate::fluid::Fluid;
 use crate::math;
-use rapier3d::na::{Quaternion, UnitQuaternion, Vector3};
+use rapier3d::na::{UnitQuaternion, Vector3};
 
 /// A body that flies alone: the same equations, law and integrator as in a rapier world, in f64.
 ///
@@ -74,6 +74,22 @@ impl FreeBody {
             angular: self.attitude.inverse() * angular * self.constants.length,
         };
         self.rate = Twist::zero();
+    }
+
+    /// Goes on from a state that was computed elsewhere and is close to this body's own, keeping
+    /// the integrator's memory of the acceleration.
+    pub fn follow(
+        &mut self,
+        position: Vector3<f64>,
+        orientation: UnitQuaternion<f64>,
+        linear: Vector3<f64>,
+        angular: Vector3<f64>,
+    ) {
+        let rate = self.rate;
+        self.position = position;
+        self.set_orientation(orientation);
+        self.set_velocity(linear, angular);
+        self.rate = rate;
     }
 
     /// Plate normal (the shortest principal axis), world axes.
@@ -165,20 +181,5 @@ impl FreeBody {
     pub fn impulse_moment(&self) -> Vector3<f64> {
         let (p, h) = self.momentum();
         self.attitude * h + self.position.cross(&(self.attitude * p))
-    }
-}
-
-/// A unit quaternion is rotated by the same function as the lanes use.
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rotation_agrees_with_nalgebra() {
-        let q = UnitQuaternion::from_euler_angles(0.3, -1.0, 2.0);
-        let raw = Quaternion::new(q.w, q.i, q.j, q.k);
-        let v = Vector3::new(1.0, -2.0, 0.5);
-        assert!((rotate(&raw, &v) - q * v).norm() < 1e-14);
-        assert!((rotate_back(&raw, &v) - q.inverse() * v).norm() < 1e-14);
     }
 }

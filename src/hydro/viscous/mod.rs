@@ -120,6 +120,9 @@ impl<T: Scalar> ViscousTerms<T> {
 
 /// A law whose per-body constants have been prepared.
 pub(crate) trait Evaluate<T: Scalar> {
+    /// Evaluations per substep that the law needs at least.
+    const LEAST_ITERATIONS: u32 = 1;
+
     /// The terms at a velocity `u` of the planform's center and an angular velocity `w` (in units
     /// of speed: times the length scale), both relative to the fluid, in plate axes.
     fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T>;

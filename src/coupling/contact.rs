@@ -1,0 +1,107 @@
+//! Contacts of a body whose mass depends on the direction.
+//!
+//! Rapier's solver knows one scalar mass per body. In fluid a plate is heavier broadside on than
+//! edgewise. Before the step a body near a contact gets the mass that it shows along the contact's
+//! normal, `m_s = 1/(n·𝕄⁻¹n)`, so that the solver finds the right impulse; after the step the
+//! velocity change that this impulse λ really causes, `𝕄⁻¹λ`, replaces `λ/m_s`.
+
+use super::kind::Kind;
+use crate::math::{to_f64, to_quaternion};
+use rapier3d::dynamics::RigidBody;
+use rapier3d::geometry::{ColliderHandle, ContactPair, NarrowPhase};
+use rapier3d::math::{Real, Vector};
+use rapier3d::na::Vector6;
+
+/// The contacts of a body as the narrow phase last saw them.
+fn pairs<'a>(
+    body: &'a RigidBody,
+    narrow_phase: &'a NarrowPhase,
+) -> impl Iterator<Item = (ColliderHandle, &'a ContactPair)> + 'a {
+    body.colliders().iter().flat_map(move |collider| {
+        narrow_phase
+            .contact_pairs_with(*collider)
+            .map(move |pair| (*collider, pair))
+    })
+}
+
+/// The normal of the contacts that the body has or is about to have, weighted by their impulses;
+/// `None` if it touches nothing.
+pub(super) fn normal(body: &RigidBody, narrow_phase: &NarrowPhase) -> Option<Vector> {
+    let mut sum = Vector::ZERO;
+    let mut touching = false;
+    for (_, pair) in pairs(body, narrow_phase) {
+        let Some(contacts) = pair.rigid() else {
+            continue;
+        };
+        for manifold in contacts.solver_manifolds() {
+            if manifold.data.solver_contacts.is_empty() {
+                continue;
+            }
+            touching = true;
+            let normal = manifold.data.normal;
+            // Normals that point opposite ways are the same direction to a mass.
+            let sign = if sum.dot(normal) < 0.0 { -1.0 } else { 1.0 };
+            let impulse: Real = manifold.points.iter().map(|p| p.data.impulse).sum();
+            sum += normal * (sign * (impulse + 1e-12));
+        }
+    }
+    touching.then(|| sum.normalize_or(Vector::Y))
+}
+
+/// The scalar mass that the body shows along `normal` (world axes), kg.
+pub(super) fn mass_along(kind: &Kind, body: &RigidBody, normal: Vector) -> f64 {
+    let n = to_quaternion(*body.rotation()).inverse() * to_f64(normal);
+    let response = kind.inverse_mass.fixed_view::<3, 3>(0, 0);
+    1.0 / n.dot(&(response * n))
+}
+
+/// What has to be added to linear and angular velocity (world axes) after the step, because the
+/// contacts acted on the scalar `solver_mass`.
+pub(super) fn correction(
+    kind: &Kind,
+    body: &RigidBody,
+    narrow_phase: &NarrowPhase,
+    solver_mass: f64,
+) -> Option<(Vector, Vector)> {
+    let (mut impulse, mut moment) = (Vector::ZERO, Vector::ZERO);
+    for (collider, pair) in pairs(body, narrow_phase) {
+        let Some(contacts) = pair.rigid() else {
+            continue;
+        };
+        let first = pair.collider1 == collider;
+        for manifold in contacts.solver_manifolds() {
+            // The normal points from the first to the second body.
+            let away = if first { -1.0 } else { 1.0 };
+            for point in &manifold.points {
+                let data = &point.data;
+                let push = manifold.data.normal * (away * data.impulse);
+                impulse += push;
+                let lever = if first { data.solver_dp1 } else { data.solver_dp2 };
+                moment += lever.cross(push);
+            }
+        }
+    }
+    if impulse == Vector::ZERO {
+        return None;
+    }
+    let rotation = to_quaternion(*body.rotation());
+    let (f, t) = (
+        rotation.inverse() * to_f64(impulse),
+        rotation.inverse() * to_f64(moment),
+    );
+    // Without coupling the rotational inertia that rapier has is the right one.
+    let t = if kind.coupled { t } else { t * 0.0 };
+    let change = kind.inverse_mass * Vector6::new(f.x, f.y, f.z, t.x, t.y, t.z);
+    let linear = change.fixed_rows::<3>(0) - f / solver_mass;
+    let angular = if kind.coupled {
+        let inertia = kind.constants.dry.inertia + kind.constants.added_mass.angular;
+        let already = inertia.try_inverse().map_or(t * 0.0, |inverse| inverse * t);
+        change.fixed_rows::<3>(3) - already
+    } else {
+        t
+    };
+    Some((
+        crate::math::to_real(rotation * linear),
+        crate::math::to_real(rotation * angular),
+    ))
+}

@@ -1,0 +1,383 @@
+//! The set of immersed bodies.
+
+use super::kind::Kind;
+use super::original::Original;
+use crate::body::ImmersedBody;
+use crate::dynamics::Integrator;
+use crate::flow::Flow;
+use crate::fluid::Fluid;
+use crate::{DryMass, Error};
+use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
+use rapier3d::geometry::ColliderSet;
+use rapier3d::math::{Real, Vector};
+use std::sync::Arc;
+
+/// Bodies of a rapier world that are immersed in one fluid.
+///
+/// Keyed by rapier's handles and otherwise independent of the world: bodies may be removed from
+/// rapier at any time, and their handles reused.
+///
+/// # What it does to a body
+/// From the step after its insertion until it is removed or disabled, an immersed body
+/// * has its density moved from its colliders to its additional mass properties, where the fluid's
+///   share of the rotational inertia (and, near contacts, of the mass) is added: `collider.mass()`
+///   then reads 0;
+/// * may rotate by more than 45° per step, and has rapier's gyroscopic forces off (the crate
+///   integrates them);
+/// * does not fall asleep unless it touches something;
+/// * keeps its user forces, gravity scale (which scales the buoyancy too), damping, locked axes and
+///   joints.
+///
+/// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
+#[derive(Clone)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct Immersion {
+    pub(super) fluid: Fluid,
+    /// How finely flight is integrated within a step of rapier.
+    pub integrator: Integrator,
+    pub(super) enabled: bool,
+    pub(super) time: f64,
+    pub(super) descriptions: Vec<ImmersedBody>,
+    pub(super) slots: Vec<Option<Slot>>,
+    /// Slot of each rapier body index, or `NONE`.
+    pub(super) lookup: Vec<u32>,
+    pub(super) free: Vec<u32>,
+    pub(super) warnings: Vec<Warning>,
+    pub(super) sweep: u32,
+    /// Whether bodies may have to enter or leave the fluid.
+    #[cfg_attr(feature = "serde-serialize", serde(skip, default = "yes"))]
+    pub(super) changed: bool,
+    /// The velocity field; `None` is a fluid at rest. Not part of a snapshot: set it again.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub(super) flow: Option<Arc<dyn Flow>>,
+    /// Rebuilt from the slots after loading.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub(super) kinds: Vec<Kind>,
+    /// Bodies that rapier may not list as active yet.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub(super) newcomers: Vec<RigidBodyHandle>,
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub(super) scratch: super::step::Scratch,
+}
+
+pub(super) const NONE: u32 = u32::MAX;
+
+/// One immersed body.
+#[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct Slot {
+    pub handle: RigidBodyHandle,
+    pub description: u32,
+    pub enabled: bool,
+    /// What rapier's body was before; `None` while it is not immersed.
+    pub original: Option<Box<Original>>,
+    /// Index of the kind; found again after loading a snapshot.
+    #[cfg_attr(feature = "serde-serialize", serde(skip, default = "no_kind"))]
+    pub kind: u32,
+    pub flight: FlightState,
+}
+
+#[cfg(feature = "serde-serialize")]
+fn yes() -> bool {
+    true
+}
+
+#[cfg(feature = "serde-serialize")]
+fn no_kind() -> u32 {
+    NONE
+}
+
+/// What a body in flight carries from step to step besides what rapier keeps.
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct FlightState {
+    /// Attitude as integrated (plate axes to world); rapier's follows it to third order.
+    pub attitude: [f32; 4],
+    /// Velocity as integrated, plate axes (u then w = ωL), relative to the fluid.
+    pub velocity: [f32; 6],
+    /// dν/dt of the last substep, plate axes.
+    pub rate: [f32; 6],
+    /// The velocities that rapier shall have after its step if nothing interferes.
+    pub end_linear: Vector,
+    pub end_angular: Vector,
+    /// Mass that rapier's solver uses, kg.
+    pub solver_mass: Real,
+    /// Velocity of the fluid in the last step, m/s.
+    pub stream: Vector,
+    /// Whether all this is from the step before.
+    pub flying: bool,
+}
+
+/// Something that a user should know about a body. Collected by the step, which cannot fail.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The body cannot be immersed; it goes on as plain rapier moves it.
+    Refused {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Why, in words.
+        reason: String,
+    },
+    /// Rapier's own inertia tensor for the body was wrong (see [`DryMass::of_body`]); while it is
+    /// immersed it has the right one.
+    WrongInertia {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Largest error of an entry over the largest entry.
+        relative_error: f64,
+    },
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Refused { body, reason } => write!(f, "{body:?} is not immersed: {reason}"),
+            Self::WrongInertia {
+                body,
+                relative_error,
+            } => write!(
+                f,
+                "rapier's own inertia tensor of {body:?} is wrong by {:.0} %; corrected while immersed",
+                relative_error * 100.0
+            ),
+        }
+    }
+}
+
+impl Immersion {
+    /// An empty set in a fluid at rest.
+    pub fn new(fluid: Fluid) -> Self {
+        Self {
+            fluid,
+            integrator: Integrator::default(),
+            enabled: true,
+            time: 0.0,
+            descriptions: Vec::new(),
+            slots: Vec::new(),
+            lookup: Vec::new(),
+            free: Vec::new(),
+            warnings: Vec::new(),
+            sweep: 0,
+            changed: false,
+            flow: None,
+            kinds: Vec::new(),
+            newcomers: Vec::new(),
+            scratch: super::step::Scratch::default(),
+        }
+    }
+
+    /// Immerses a body from the next step on. Equal descriptions are stored once.
+    ///
+    /// `body` is [`HydroProperties`](crate::HydroProperties) (under the default law) or an
+    /// [`ImmersedBody`]. A handle that is stale or becomes stale is no error; a body that is already
+    /// immersed gets the new description. What cannot be immersed (without mass, say) is left to
+    /// plain rapier and reported in [`Immersion::warnings`].
+    pub fn insert(&mut self, handle: RigidBodyHandle, body: impl Into<ImmersedBody>) {
+        let body = body.into();
+        let description = match self.descriptions.iter().rposition(|known| *known == body) {
+            Some(index) => index,
+            None => {
+                self.descriptions.push(body);
+                self.descriptions.len() - 1
+            }
+        } as u32;
+        self.insert_described(handle, description);
+    }
+
+    /// Immerses many equal bodies: `body` is compared with the known descriptions only once.
+    pub fn insert_all(
+        &mut self,
+        handles: impl IntoIterator<Item = RigidBodyHandle>,
+        body: impl Into<ImmersedBody>,
+    ) {
+        let mut handles = handles.into_iter();
+        if let Some(first) = handles.next() {
+            self.insert(first, body);
+            let description = self.slot(first).map_or(0, |slot| slot.description);
+            for handle in handles {
+                self.insert_described(handle, description);
+            }
+        }
+    }
+
+    fn insert_described(&mut self, handle: RigidBodyHandle, description: u32) {
+        self.changed = true;
+        if let Some(slot) = self.slot_mut(handle) {
+            slot.description = description;
+            slot.kind = NONE;
+            return;
+        }
+        let index = handle.into_raw_parts().0 as usize;
+        if self.lookup.len() <= index {
+            self.lookup.resize(index + 1, NONE);
+        }
+        // A slot that a removed body of the same index left behind is taken over.
+        let slot = match self.lookup[index] {
+            NONE => self.free.pop().unwrap_or_else(|| {
+                self.slots.push(None);
+                self.slots.len() as u32 - 1
+            }),
+            stale => stale,
+        };
+        self.lookup[index] = slot;
+        self.slots[slot as usize] = Some(Slot {
+            handle,
+            description,
+            enabled: true,
+            original: None,
+            kind: NONE,
+            flight: FlightState::default(),
+        });
+    }
+
+    /// Takes a body out of the fluid and gives it back the mass properties and switches that it had.
+    /// Unknown handles are no error.
+    pub fn remove(
+        &mut self,
+        handle: RigidBodyHandle,
+        bodies: &mut RigidBodySet,
+        colliders: &mut ColliderSet,
+    ) {
+        let Some(index) = self.index(handle) else {
+            return;
+        };
+        if let Some(slot) = self.slots[index as usize].take()
+            && let Some(original) = slot.original
+        {
+            original.restore(handle, bodies, colliders);
+        }
+        self.lookup[handle.into_raw_parts().0 as usize] = NONE;
+        self.free.push(index);
+    }
+
+    /// Whether a body is in the set, enabled or not.
+    pub fn contains(&self, handle: RigidBodyHandle) -> bool {
+        self.index(handle).is_some()
+    }
+
+    /// Number of bodies in the set. Bodies that were removed from rapier count until the step has
+    /// come across them.
+    pub fn len(&self) -> usize {
+        self.slots.len() - self.free.len()
+    }
+
+    /// Whether no body is immersed.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The description of a body.
+    pub fn get(&self, handle: RigidBodyHandle) -> Option<&ImmersedBody> {
+        let slot = self.slot(handle)?;
+        Some(&self.descriptions[slot.description as usize])
+    }
+
+    /// Switches the fluid off or on for the whole set, from the next step on. While off, the world
+    /// steps as plain rapier: mass properties and switches are those from before immersion.
+    pub fn set_enabled(&mut self, enabled: bool) {
+        self.enabled = enabled;
+        self.changed = true;
+    }
+
+    /// Whether the fluid is on for the set.
+    pub fn is_enabled(&self) -> bool {
+        self.enabled
+    }
+
+    /// Switches the fluid off or on for one body, from the next step on.
+    pub fn set_body_enabled(&mut self, handle: RigidBodyHandle, enabled: bool) {
+        if let Some(slot) = self.slot_mut(handle) {
+            slot.enabled = enabled;
+            self.changed = true;
+        }
+    }
+
+    /// The fluid.
+    pub fn fluid(&self) -> &Fluid {
+        &self.fluid
+    }
+
+    /// Changes the fluid, from the next step on.
+    pub fn set_fluid(&mut self, fluid: Fluid) {
+        self.fluid = fluid;
+        self.kinds.clear();
+        self.changed = true;
+        for slot in self.slots.iter_mut().flatten() {
+            slot.kind = NONE;
+        }
+    }
+
+    /// Sets the velocity field of the fluid.
+    pub fn set_flow(&mut self, flow: impl Flow + 'static) {
+        self.flow = Some(Arc::new(flow));
+    }
+
+    /// Lets the fluid rest.
+    pub fn clear_flow(&mut self) {
+        self.flow = None;
+    }
+
+    /// Seconds that the set has been stepped.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// What the steps so far had to say; [`Immersion::clear_warnings`] forgets it. The same text
+    /// goes to the `log` crate at level `warn`.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// Forgets the warnings so far.
+    pub fn clear_warnings(&mut self) {
+        self.warnings.clear();
+    }
+
+    pub(super) fn warn(&mut self, warning: Warning) {
+        log::warn!("{warning}");
+        self.warnings.push(warning);
+    }
+
+    fn index(&self, handle: RigidBodyHandle) -> Option<u32> {
+        let index = *self.lookup.get(handle.into_raw_parts().0 as usize)?;
+        let slot = self.slots.get(index as usize)?.as_ref()?;
+        (slot.handle == handle).then_some(index)
+    }
+
+    pub(super) fn slot_index(&self, handle: RigidBodyHandle) -> Option<usize> {
+        self.index(handle).map(|index| index as usize)
+    }
+
+    pub(super) fn slot(&self, handle: RigidBodyHandle) -> Option<&Slot> {
+        self.slots[self.slot_index(handle)?].as_ref()
+    }
+
+    pub(super) fn slot_mut(&mut self, handle: RigidBodyHandle) -> Option<&mut Slot> {
+        let index = self.slot_index(handle)?;
+        self.slots[index].as_mut()
+    }
+
+    /// Index of the kind of a body with this description and mass.
+    pub(super) fn kind_of(&mut self, description: u32, dry: &DryMass) -> Result<u32, Error> {
+        if let Some(index) = self.kinds.iter().rposition(|kind| kind.is(description, dry)) {
+            return Ok(index as u32);
+        }
+        let body = &self.descriptions[description as usize];
+        self.kinds.push(Kind::new(description, body, dry, &self.fluid)?);
+        Ok(self.kinds.len() as u32 - 1)
+    }
+}

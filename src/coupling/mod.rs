@@ -1,0 +1,13 @@
+//! The bridge to rapier: the only place that reads and writes its bodies.
+
+mod contact;
+mod flight;
+mod from_rapier;
+mod handover;
+mod immersion;
+mod kind;
+mod original;
+mod step;
+
+pub use immersion::{Immersion, Warning};
+pub use step::RapierSets;

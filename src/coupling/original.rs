@@ -1,0 +1,122 @@
+//! What a body was before it was immersed.
+
+use super::from_rapier::{inertia_error, uniform_density};
+use super::kind::Kind;
+use crate::{DryMass, Error};
+use rapier3d::dynamics::{
+    MassProperties, RigidBodyAdditionalMassProps, RigidBodyHandle, RigidBodySet,
+};
+use rapier3d::geometry::{ColliderHandle, ColliderSet};
+
+/// Mass properties and switches of a rapier body, to be given back.
+#[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct Original {
+    /// The body's own mass, without fluid.
+    pub dry: DryMass,
+    colliders: Vec<(ColliderHandle, ColliderMass)>,
+    additional: Option<RigidBodyAdditionalMassProps>,
+    gyroscopic: bool,
+    fast_rotation: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+enum ColliderMass {
+    Density(f32),
+    Explicit(MassProperties),
+}
+
+impl Original {
+    /// Reads a body as it is. Also returns the relative error of rapier's own inertia for it.
+    ///
+    /// # Errors
+    /// Those of [`DryMass::of_body`].
+    pub fn of(
+        handle: RigidBodyHandle,
+        bodies: &RigidBodySet,
+        colliders: &ColliderSet,
+    ) -> Result<(Self, f64), Error> {
+        let dry = DryMass::of_body(bodies, colliders, handle)?;
+        let body = &bodies[handle];
+        let mut own = body.clone();
+        own.recompute_mass_properties_from_colliders(colliders);
+        let error = inertia_error(&own.mass_properties().local_mprops, &dry);
+        let masses = body.colliders().iter().filter_map(|handle| {
+            let collider = colliders.get(*handle)?;
+            let mass = uniform_density(collider).map_or_else(
+                || ColliderMass::Explicit(collider.mass_properties()),
+                ColliderMass::Density,
+            );
+            Some((*handle, mass))
+        });
+        let original = Self {
+            dry,
+            colliders: masses.collect(),
+            additional: body.mass_properties().additional_local_mprops.as_deref().copied(),
+            gyroscopic: body.gyroscopic_forces_enabled(),
+            fast_rotation: body.is_fast_rotation_allowed(),
+        };
+        Ok((original, error))
+    }
+
+    /// Gives the body the mass properties of its kind.
+    pub fn immerse(
+        &self,
+        kind: &Kind,
+        mass: f64,
+        handle: RigidBodyHandle,
+        bodies: &mut RigidBodySet,
+        colliders: &mut ColliderSet,
+    ) {
+        for (handle, _) in &self.colliders {
+            if let Some(collider) = colliders.get_mut(*handle) {
+                collider.set_density(0.0);
+            }
+        }
+        let body = &mut bodies[handle];
+        body.set_additional_mass_properties(kind.rapier_mass_properties(mass), false);
+        body.enable_gyroscopic_forces(false);
+        body.set_allow_fast_rotation(true);
+        body.recompute_mass_properties_from_colliders(colliders);
+    }
+
+    /// Gives everything back.
+    pub fn restore(
+        &self,
+        handle: RigidBodyHandle,
+        bodies: &mut RigidBodySet,
+        colliders: &mut ColliderSet,
+    ) {
+        for (handle, mass) in &self.colliders {
+            if let Some(collider) = colliders.get_mut(*handle) {
+                match mass {
+                    ColliderMass::Density(density) => collider.set_density(*density),
+                    ColliderMass::Explicit(properties) => {
+                        collider.set_mass_properties(*properties);
+                    }
+                }
+            }
+        }
+        if let Some(body) = bodies.get_mut(handle) {
+            match self.additional {
+                None => body.set_additional_mass_properties(MassProperties::default(), false),
+                Some(RigidBodyAdditionalMassProps::Mass(mass)) => {
+                    body.set_additional_mass(mass, false);
+                }
+                Some(RigidBodyAdditionalMassProps::MassProps(properties)) => {
+                    body.set_additional_mass_properties(properties, false);
+                }
+            }
+            body.enable_gyroscopic_forces(self.gyroscopic);
+            body.set_allow_fast_rotation(self.fast_rotation);
+            body.recompute_mass_properties_from_colliders(colliders);
+        }
+    }
+}

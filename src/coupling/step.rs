@@ -1,0 +1,572 @@
+//! Before and after rapier's step.
+
+use super::contact;
+use super::flight::{Flyer, fly};
+use super::handover::Target;
+use super::immersion::{Immersion, NONE, Warning};
+use super::kind::LawLanes;
+use super::original::Original;
+use crate::flow::FlowSample;
+use rapier3d::dynamics::{
+    ImpulseJointSet, IntegrationParameters, IslandManager, LockedAxes, MultibodyJointSet, RigidBody,
+    RigidBodyHandle, RigidBodySet,
+};
+use rapier3d::geometry::{ColliderSet, NarrowPhase};
+use rapier3d::math::{Real, Rotation, Vector};
+use rapier3d::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
+
+/// The parts of a rapier world that the step reads and writes, for users who hold rapier's sets
+/// themselves.
+pub struct RapierSets<'a> {
+    /// Gravity, m/s².
+    pub gravity: Vector,
+    /// Time step and solver settings.
+    pub integration_parameters: &'a IntegrationParameters,
+    /// Which bodies are awake.
+    pub islands: &'a IslandManager,
+    /// Contacts.
+    pub narrow_phase: &'a NarrowPhase,
+    /// The bodies.
+    pub bodies: &'a mut RigidBodySet,
+    /// The colliders; written only when a body enters or leaves the fluid.
+    pub colliders: &'a mut ColliderSet,
+    /// Joints: jointed bodies are handed over like those in contact.
+    pub impulse_joints: &'a ImpulseJointSet,
+    /// Multibodies, likewise.
+    pub multibody_joints: &'a MultibodyJointSet,
+}
+
+impl<'a> RapierSets<'a> {
+    /// The parts of a [`PhysicsWorld`].
+    pub fn of(world: &'a mut PhysicsWorld) -> Self {
+        Self {
+            gravity: world.gravity,
+            integration_parameters: &world.integration_parameters,
+            islands: &world.islands,
+            narrow_phase: &world.narrow_phase,
+            bodies: &mut world.bodies,
+            colliders: &mut world.colliders,
+            impulse_joints: &world.impulse_joints,
+            multibody_joints: &world.multibody_joints,
+        }
+    }
+}
+
+/// Memory that is reused from step to step.
+#[derive(Clone, Default)]
+pub(super) struct Scratch {
+    /// The bodies that this step moves, by law.
+    flyers: [Vec<Flyer>; LAWS],
+    /// The same bodies as rapier sees them.
+    passengers: [Vec<Passenger>; LAWS],
+    /// Bodies between `before_step` and `after_step`.
+    borrowed: Vec<Borrowed>,
+    points: Vec<Vector>,
+    samples: Vec<FlowSample>,
+}
+
+const LAWS: usize = 4;
+/// Sleeping and stale slots are looked at once in this many steps.
+const SWEEP: u32 = 16;
+/// A gust wakes a body when the pressure it could exert changes by this share of the weight.
+const WAKE_SHARE: Real = 0.25;
+/// Relative difference of velocities that rapier's own arithmetic in f32 can cause.
+const ROUNDING: Real = 2e-6;
+/// Change of the solver's mass near contacts that is worth telling rapier.
+const MASS_CHANGE: Real = 0.02;
+
+#[derive(Clone, Copy)]
+struct Passenger {
+    handle: RigidBodyHandle,
+    /// Attitude (plate to world) and velocities that rapier has.
+    attitude: Rotation,
+    linear: Vector,
+    angular: Vector,
+    gravity: Vector,
+    substeps: usize,
+    solver_mass: Real,
+    /// The solver's mass that its contacts ask for, if it changed.
+    new_mass: Option<Real>,
+    /// Touches nothing and is held by nothing.
+    free: bool,
+    /// Goes on with the velocity relative to the fluid that was integrated.
+    goes_on: bool,
+    may_sleep: bool,
+}
+
+#[derive(Clone, Copy)]
+struct Borrowed {
+    handle: RigidBodyHandle,
+    slot: u32,
+    force: Vector,
+    torque: Vector,
+    touching: bool,
+}
+
+impl Immersion {
+    /// Steps the world, with the immersed bodies in their fluid.
+    pub fn step(&mut self, world: &mut PhysicsWorld) {
+        self.step_with_events(world, &(), &());
+    }
+
+    /// Steps the world with rapier's physics hooks and event handler.
+    pub fn step_with_events(
+        &mut self,
+        world: &mut PhysicsWorld,
+        hooks: &dyn PhysicsHooks,
+        events: &dyn EventHandler,
+    ) {
+        self.before_step(&mut RapierSets::of(world));
+        world.step_with_events(hooks, events);
+        self.after_step(&mut RapierSets::of(world));
+    }
+
+    /// To be called right before `PhysicsPipeline::step`, with [`Immersion::after_step`] right after
+    /// it. Sets each immersed body's force, torque and velocity so that rapier's step moves it as
+    /// the fluid would.
+    pub fn before_step(&mut self, sets: &mut RapierSets) {
+        if std::mem::take(&mut self.changed) {
+            for index in 0..self.slots.len() {
+                self.enter_or_leave(index, sets);
+            }
+        }
+        self.sweep(sets);
+        let dt = sets.integration_parameters.dt;
+        let mut scratch = std::mem::take(&mut self.scratch);
+        scratch.flyers.iter_mut().for_each(Vec::clear);
+        scratch.passengers.iter_mut().for_each(Vec::clear);
+        scratch.borrowed.clear();
+        if self.enabled && dt > 0.0 {
+            // Rapier lists a body as active only once it has stepped it: newcomers go first.
+            self.newcomers.sort_unstable_by_key(|handle| handle.into_raw_parts());
+            self.newcomers.dedup();
+            for index in 0..self.newcomers.len() {
+                self.board(self.newcomers[index], sets, &mut scratch);
+            }
+            for handle in sets.islands.active_bodies() {
+                let key = handle.into_raw_parts();
+                let newcomers = &self.newcomers;
+                if newcomers.is_empty()
+                    || newcomers.binary_search_by_key(&key, |h| h.into_raw_parts()).is_err()
+                {
+                    self.board(handle, sets, &mut scratch);
+                }
+            }
+            self.newcomers.clear();
+            for law in 0..LAWS {
+                let flyers = &mut scratch.flyers[law];
+                let passengers = &scratch.passengers[law];
+                self.sample_flow(flyers, passengers, sets, &mut scratch.points, &mut scratch.samples);
+                self.fly_all(flyers, dt);
+                for (flyer, passenger) in flyers.iter().zip(passengers) {
+                    let borrowed = self.hand_over(flyer, passenger, dt, sets.bodies);
+                    scratch.borrowed.extend(borrowed);
+                }
+            }
+        }
+        self.scratch = scratch;
+    }
+
+    /// To be called right after `PhysicsPipeline::step`: gives users' forces back and corrects the
+    /// velocities of bodies in contact.
+    pub fn after_step(&mut self, sets: &mut RapierSets) {
+        let scratch = std::mem::take(&mut self.scratch);
+        for borrowed in &scratch.borrowed {
+            let Some(body) = sets.bodies.get_mut(borrowed.handle) else {
+                continue;
+            };
+            body.reset_forces(false);
+            body.reset_torques(false);
+            body.add_force(borrowed.force, false);
+            body.add_torque(borrowed.torque, false);
+            if !borrowed.touching {
+                continue;
+            }
+            let Some(slot) = &self.slots[borrowed.slot as usize] else {
+                continue;
+            };
+            let kind = &self.kinds[slot.kind as usize];
+            let mass = slot.flight.solver_mass.into();
+            if let Some((linear, angular)) =
+                contact::correction(kind, body, sets.narrow_phase, mass)
+            {
+                body.set_linvel(body.linvel() + linear, false);
+                body.set_angvel(body.angvel() + angular, false);
+            }
+        }
+        if self.enabled {
+            self.time += f64::from(sets.integration_parameters.dt.max(0.0));
+        }
+        self.scratch = scratch;
+        self.scratch.borrowed.clear();
+    }
+
+    /// Lets a newly inserted or enabled body into the fluid, or a disabled one out.
+    fn enter_or_leave(&mut self, index: usize, sets: &mut RapierSets) {
+        let Some(slot) = &mut self.slots[index] else {
+            return;
+        };
+        let wanted = self.enabled && slot.enabled;
+        if wanted == slot.original.is_some() && (!wanted || slot.kind != NONE) {
+            return;
+        }
+        let handle = slot.handle;
+        if !wanted {
+            if let Some(original) = slot.original.take() {
+                slot.flight.flying = false;
+                original.restore(handle, sets.bodies, sets.colliders);
+            }
+        } else if sets.bodies.get(handle).is_some_and(RigidBody::is_dynamic) {
+            self.enter(index, handle, sets);
+        }
+    }
+
+    fn enter(&mut self, index: usize, handle: RigidBodyHandle, sets: &mut RapierSets) {
+        let Some(slot) = &mut self.slots[index] else {
+            return;
+        };
+        let description = slot.description;
+        let (original, fresh) = match slot.original.take() {
+            Some(original) => (Ok(*original), None),
+            None => match Original::of(handle, sets.bodies, sets.colliders) {
+                Ok((original, error)) => (Ok(original), Some(error)),
+                Err(error) => (Err(error), None),
+            },
+        };
+        let entered = original.and_then(|original| {
+            let kind = self.kind_of(description, &original.dry)?;
+            Ok((original, kind))
+        });
+        match entered {
+            Ok((original, kind)) => {
+                let mass = original.dry.mass;
+                let description = &self.kinds[kind as usize];
+                // After loading a snapshot rapier's body is as the kind wants it already, but
+                // setting it again changes nothing.
+                if fresh.is_some() || !self.loaded(index) {
+                    original.immerse(description, mass, handle, sets.bodies, sets.colliders);
+                }
+                if let Some(slot) = &mut self.slots[index] {
+                    if fresh.is_some() || slot.flight.solver_mass == 0.0 {
+                        slot.flight.solver_mass = mass as Real;
+                    }
+                    slot.kind = kind;
+                    slot.original = Some(Box::new(original));
+                    self.newcomers.push(handle);
+                }
+                if let Some(relative_error) = fresh.filter(|error| *error > 0.01) {
+                    self.warn(Warning::WrongInertia {
+                        body: handle,
+                        relative_error,
+                    });
+                }
+            }
+            Err(error) => {
+                if let Some(slot) = &mut self.slots[index] {
+                    slot.enabled = false;
+                }
+                self.warn(Warning::Refused {
+                    body: handle,
+                    reason: error.to_string(),
+                });
+            }
+        }
+    }
+
+    /// Whether the slot was in flight when its kind was lost, as after loading a snapshot.
+    fn loaded(&self, index: usize) -> bool {
+        self.slots[index]
+            .as_ref()
+            .is_some_and(|slot| slot.kind == NONE && slot.flight.flying)
+    }
+
+    /// Looks at a part of the bodies that the step does not visit: forgets those that rapier has
+    /// removed, and wakes sleepers in a gust.
+    fn sweep(&mut self, sets: &mut RapierSets) {
+        self.sweep = (self.sweep + 1) % SWEEP;
+        let phase = self.sweep as usize;
+        for index in (phase..self.slots.len()).step_by(SWEEP as usize) {
+            // A body that has become dynamic since.
+            self.enter_or_leave(index, sets);
+            let Some(slot) = &self.slots[index] else {
+                continue;
+            };
+            let handle = slot.handle;
+            let Some(body) = sets.bodies.get(handle) else {
+                self.slots[index] = None;
+                let lookup = &mut self.lookup[handle.into_raw_parts().0 as usize];
+                if *lookup == index as u32 {
+                    *lookup = NONE;
+                    self.free.push(index as u32);
+                }
+                continue;
+            };
+            if let Some(flow) = &self.flow
+                && body.is_sleeping()
+                && slot.kind != NONE
+            {
+                let now = flow.velocity(body.center_of_mass(), self.time);
+                let kind = &self.kinds[slot.kind as usize];
+                let description = &self.descriptions[slot.description as usize];
+                let area = description.hydro.planform.area as Real;
+                let pressure = |v: Vector| 0.5 * self.fluid.density() * area * v.length_squared();
+                let c = &kind.constants;
+                let weight = (c.dry.mass - c.displaced_mass).abs() as Real * sets.gravity.length();
+                let change = (pressure(now) - pressure(slot.flight.stream)).abs();
+                if change > WAKE_SHARE * weight {
+                    sets.bodies[handle].wake_up(true);
+                    self.newcomers.push(handle);
+                }
+            }
+        }
+    }
+
+    /// Puts an awake body on the list of those that this step moves, if it is immersed.
+    fn board(&self, handle: RigidBodyHandle, sets: &RapierSets, scratch: &mut Scratch) {
+        if let Some((law, flyer, passenger)) = self.read(handle, sets) {
+            scratch.flyers[law].push(flyer);
+            scratch.passengers[law].push(passenger);
+        }
+    }
+
+    /// Reads a body. `None` if it is not immersed, or not dynamic.
+    fn read(
+        &self,
+        handle: RigidBodyHandle,
+        sets: &RapierSets,
+    ) -> Option<(usize, Flyer, Passenger)> {
+        let index = self.slot_index(handle)?;
+        let slot = self.slots[index].as_ref()?;
+        if slot.original.is_none() || slot.kind == NONE {
+            return None;
+        }
+        let body = sets.bodies.get(handle)?;
+        if !body.is_dynamic() {
+            return None;
+        }
+        let kind = &self.kinds[slot.kind as usize];
+        let law = match kind.law {
+            LawLanes::Inviscid => 0,
+            LawLanes::Physical(_) => 1,
+            LawLanes::Thesis(_) => 2,
+            LawLanes::Stochastic(_) => 3,
+        };
+
+        let normal = contact::normal(body, sets.narrow_phase);
+        let held = is_held(body, handle, sets);
+        let wanted = match normal {
+            Some(normal) => contact::mass_along(kind, body, normal) as Real,
+            None => kind.constants.dry.mass as Real,
+        };
+        let solver_mass = slot.flight.solver_mass;
+        let new_mass = ((wanted - solver_mass).abs() > MASS_CHANGE * wanted).then_some(wanted);
+        let substeps = sets.integration_parameters.num_solver_iterations
+            + body.additional_solver_iterations();
+        let free = normal.is_none() && !held && substeps > 1;
+
+        let rapier = *body.rotation() * kind.axes;
+        let flight = &slot.flight;
+        let kept = Rotation::from_array(flight.attitude);
+        // The motion that was integrated goes on, unless someone turned the body since. What rapier
+        // or a user did to its velocity comes on top; rounding does not.
+        let goes_on = free
+            && flight.flying
+            && body.linear_damping() == 0.0
+            && body.angular_damping() == 0.0
+            && rapier.dot(kept).abs() > 1.0 - 1e-4;
+        let beyond_rounding = |now: Vector, expected: Vector| {
+            let change = now - expected;
+            if change.length() > ROUNDING * expected.length() {
+                change
+            } else {
+                Vector::ZERO
+            }
+        };
+        let (attitude, velocity, rate, linear, angular) = if goes_on {
+            (
+                kept,
+                flight.velocity,
+                flight.rate,
+                beyond_rounding(body.linvel(), flight.end_linear),
+                beyond_rounding(body.angvel(), flight.end_angular),
+            )
+        } else {
+            (rapier, [0.0; 6], [0.0; 6], body.linvel(), body.angvel())
+        };
+        let gravity = sets.gravity * body.gravity_scale();
+        let flyer = Flyer {
+            slot: index as u32,
+            kind: slot.kind,
+            attitude: attitude.to_array(),
+            velocity,
+            linear: linear.to_array(),
+            angular: angular.to_array(),
+            rate,
+            stream: [0.0; 3],
+            vorticity: [0.0; 3],
+            gravity: gravity.to_array(),
+            force: body.user_force().to_array(),
+            torque: body.user_torque().to_array(),
+            end_linear: [0.0; 3],
+            end_angular: [0.0; 3],
+            displacement: [0.0; 3],
+        };
+        let passenger = Passenger {
+            handle,
+            attitude: rapier,
+            linear: body.linvel(),
+            angular: body.angvel(),
+            gravity,
+            substeps,
+            solver_mass: new_mass.unwrap_or(solver_mass),
+            new_mass,
+            free,
+            goes_on,
+            may_sleep: normal.is_some() || held,
+        };
+        Some((law, flyer, passenger))
+    }
+
+    /// Reads the flow at every flyer, and lets a flow that changes push the bodies in it.
+    fn sample_flow(
+        &mut self,
+        flyers: &mut [Flyer],
+        passengers: &[Passenger],
+        sets: &RapierSets,
+        points: &mut Vec<Vector>,
+        samples: &mut Vec<FlowSample>,
+    ) {
+        let Some(flow) = &self.flow else {
+            return;
+        };
+        points.clear();
+        points.extend(flyers.iter().filter_map(|flyer| {
+            let slot = self.slots[flyer.slot as usize].as_ref()?;
+            Some(sets.bodies.get(slot.handle)?.center_of_mass())
+        }));
+        samples.clear();
+        samples.resize(points.len(), FlowSample::default());
+        flow.sample(points, self.time, samples);
+        for ((flyer, passenger), sample) in flyers.iter_mut().zip(passengers).zip(samples.iter()) {
+            if !sample.velocity.is_finite() || !sample.vorticity.is_finite() {
+                continue;
+            }
+            let Some(slot) = &mut self.slots[flyer.slot as usize] else {
+                continue;
+            };
+            flyer.stream = sample.velocity.to_array();
+            flyer.vorticity = sample.vorticity.to_array();
+            let mut linear = Vector::from_array(flyer.linear);
+            // In the frame of the fluid: a body that goes on is there already, but the frame itself
+            // has changed its velocity.
+            linear -= if passenger.goes_on {
+                sample.velocity - slot.flight.stream
+            } else {
+                sample.velocity
+            };
+            if slot.flight.flying {
+                let kind = &self.kinds[flyer.kind as usize];
+                let change = sample.velocity - slot.flight.stream;
+                let attitude = Rotation::from_array(flyer.attitude) * kind.axes.inverse();
+                let (push, twist) = kind.pushed_by(attitude, change);
+                linear += push;
+                flyer.angular = (Vector::from_array(flyer.angular) + twist).to_array();
+            }
+            flyer.linear = linear.to_array();
+            slot.flight.stream = sample.velocity;
+        }
+    }
+
+    fn fly_all(&self, flyers: &mut [Flyer], dt: Real) {
+        #[cfg(feature = "parallel")]
+        {
+            use crate::math::LANES;
+            use rapier3d::rayon::prelude::*;
+            /// Bodies per task: enough to be worth handing to another thread.
+            const TASK: usize = 64 * LANES;
+            if flyers.len() > TASK {
+                flyers
+                    .par_chunks_mut(TASK)
+                    .for_each(|task| fly(task, &self.kinds, dt, &self.integrator));
+                return;
+            }
+        }
+        fly(flyers, &self.kinds, dt, &self.integrator);
+    }
+
+    /// Writes what the step shall do to one body, and keeps what must be given back.
+    fn hand_over(
+        &mut self,
+        flyer: &Flyer,
+        passenger: &Passenger,
+        dt: Real,
+        bodies: &mut RigidBodySet,
+    ) -> Option<Borrowed> {
+        let body = bodies.get_mut(passenger.handle)?;
+        let kind = &self.kinds[flyer.kind as usize];
+        let target = Target {
+            dt,
+            substeps: passenger.substeps,
+            attitude: passenger.attitude,
+            end_attitude: Rotation::from_array(flyer.attitude),
+            linear: passenger.linear,
+            angular: passenger.angular,
+            end_linear: Vector::from_array(flyer.end_linear),
+            end_angular: Vector::from_array(flyer.end_angular),
+            displacement: Vector::from_array(flyer.displacement),
+            solver_mass: passenger.solver_mass,
+        };
+        let handover = if passenger.free {
+            target.free(kind)
+        } else {
+            target.by_force(kind)
+        };
+        let force = handover.force - passenger.gravity * passenger.solver_mass;
+        let finite = force.is_finite()
+            && handover.torque.is_finite()
+            && handover.start.is_none_or(|(v, w)| v.is_finite() && w.is_finite());
+        if !finite {
+            return None;
+        }
+        let borrowed = Borrowed {
+            handle: passenger.handle,
+            slot: flyer.slot,
+            force: body.user_force(),
+            torque: body.user_torque(),
+            touching: passenger.may_sleep,
+        };
+        if let Some((linear, angular)) = handover.start {
+            body.set_linvel(linear, false);
+            body.set_angvel(angular, false);
+        }
+        body.reset_forces(false);
+        body.reset_torques(false);
+        body.add_force(force, false);
+        body.add_torque(handover.torque, false);
+        if !passenger.may_sleep {
+            // Drifting slowly through water is not resting.
+            body.activation_mut().time_since_can_sleep = 0.0;
+        }
+        let slot = self.slots[flyer.slot as usize].as_mut()?;
+        if let Some(mass) = passenger.new_mass {
+            let properties = kind.rapier_mass_properties(mass.into());
+            body.set_additional_mass_properties(properties, false);
+            slot.flight.solver_mass = mass;
+        }
+        slot.flight.attitude = flyer.attitude;
+        slot.flight.velocity = flyer.velocity;
+        slot.flight.rate = flyer.rate;
+        slot.flight.end_linear = target.end_linear;
+        slot.flight.end_angular = target.end_angular;
+        slot.flight.flying = true;
+        Some(borrowed)
+    }
+}
+
+/// Whether joints or locked axes keep a body from moving freely.
+fn is_held(body: &RigidBody, handle: RigidBodyHandle, sets: &RapierSets) -> bool {
+    body.locked_axes() != LockedAxes::empty()
+        || (!sets.impulse_joints.is_empty()
+            && sets.impulse_joints.attached_joints(handle).next().is_some())
+        || sets.multibody_joints.rigid_body_link(handle).is_some()
+}

@@ -1,0 +1,71 @@
+//! A body that flies freely in a rapier world moves as the crate's own integrator moves it.
+
+use crate::support::{solid_box, weightless};
+use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion, Vector3};
+use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::{Fluid, FreeBody, HydroProperties, Immersion, ViscousLaw};
+
+fn vector(v: Vector) -> Vector3<f64> {
+    Vector3::new(v.x.into(), v.y.into(), v.z.into())
+}
+
+fn quaternion(q: &Rotation) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_quaternion(Quaternion::new(
+        q.w.into(),
+        q.x.into(),
+        q.y.into(),
+        q.z.into(),
+    ))
+}
+
+/// A leaf in air under gravity. Each step of rapier is compared with a step of the f64 integrator
+/// from the same state: velocities to 10⁻⁵ of the speed, pose within what the bound
+/// 0.125·|Δv|·dt allows. (Step by step, because a falling leaf is too sensitive for a whole path.)
+#[test]
+fn step_by_step() {
+    let size = [0.073, 0.042, 0.0003];
+    for dt in [1.0 / 60.0, 1.0 / 240.0] {
+        let mut world = weightless();
+        world.gravity = Vector::new(0.0, 0.0, -9.81);
+        world.integration_parameters.dt = dt;
+        let half = size.map(|x| (x / 2.0) as Real);
+        let start = Rotation::from_euler(rapier3d_immersed::rapier3d::glamx::EulerRot::XYZ, 0.3, 0.5, 0.1);
+        let (handle, _) = world.insert(
+            RigidBodyBuilder::dynamic().position(Pose::from_parts(Vector::ZERO, start)),
+            ColliderBuilder::cuboid(half[0], half[1], half[2]).density(300.0),
+        );
+        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
+        let (body, mass) = solid_box(size, 300.0, ViscousLaw::default());
+        let mut reference = FreeBody::new(&body, &mass, &Fluid::AIR).unwrap();
+        reference.set_orientation(quaternion(&start));
+        let mut immersion = Immersion::new(Fluid::AIR);
+        immersion.insert(handle, hydro);
+
+        let (mut worst_v, mut worst_w, mut worst_x, mut worst_q): (f64, f64, f64, f64) =
+            Default::default();
+        for _ in 0..(3.0 / dt) as usize {
+            immersion.step(&mut world);
+            let before = reference.linear_velocity();
+            reference.step(f64::from(dt), Vector3::new(0.0, 0.0, -9.81));
+            let rapier = &world.bodies[handle];
+            let (v, w) = (reference.linear_velocity(), reference.angular_velocity());
+            let kick = (v - before).norm() * f64::from(dt);
+            worst_v = worst_v.max((vector(rapier.linvel()) - v).norm() / v.norm());
+            worst_w = worst_w.max((vector(rapier.angvel()) - w).norm() / w.norm().max(1.0));
+            let bound = 0.125 * kick + 1e-6 * v.norm() * f64::from(dt);
+            let moved = vector(rapier.center_of_mass());
+            worst_x = worst_x.max((moved - reference.position).norm() / bound);
+            let turned = quaternion(rapier.rotation()).angle_to(&reference.orientation());
+            worst_q = worst_q.max(turned);
+            // Both go on from rapier's state, with the integrator's own memory kept.
+            reference.follow(
+                moved,
+                quaternion(rapier.rotation()),
+                vector(rapier.linvel()),
+                vector(rapier.angvel()),
+            );
+        }
+        eprintln!("{dt}: {worst_v:e} {worst_w:e} {worst_x:e} {worst_q:e}");
+        assert!(worst_v < 1e-5 && worst_w < 1e-5 && worst_x < 1.0 && worst_q < 1e-3);
+    }
+}
