@@ -1,25 +1,39 @@
-use rapier3d_immersed::*;
 use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::*;
 fn main() {
+    let count = 400usize;
     let mut world = PhysicsWorld::new();
-    world.gravity = Vector::ZERO;
-    world.integration_parameters.dt = 1.0/240.0;
-    let (h,_) = world.insert(RigidBodyBuilder::dynamic().linvel(Vector::new(0.3,0.1,-0.2)).angvel(Vector::new(1.0,2.0,-0.5)), ColliderBuilder::cuboid(0.1,0.05,0.02).density(2000.0));
-    let hydro = HydroProperties::from_body(&world.bodies,&world.colliders,h).unwrap();
-    println!("{hydro:?}");
-    let m = DryMass::of_body(&world.bodies,&world.colliders,h).unwrap();
-    println!("{m:?}");
-    let b = ImmersedBody::new(hydro).with_law(ViscousLaw::Inviscid).unwrap();
-    let mut f = FreeBody::new(&b,&m,&Fluid::WATER).unwrap();
-    f.set_velocity(rapier3d::na::Vector3::new(0.3,0.1,-0.2), rapier3d::na::Vector3::new(1.0,2.0,-0.5));
-    let mut im = Immersion::new(Fluid::WATER);
-    im.insert(h,b);
-    for i in 0..6 {
-        im.step(&mut world);
-        f.step(1.0/240.0, rapier3d::na::Vector3::zeros());
-        let r=&world.bodies[h];
-        println!("{i} v {:?} w {:?} x {:?} q {:?}", r.linvel(), r.angvel(), r.center_of_mass(), r.rotation());
-        println!("   {:?} {:?} {:?} {:?}", f.linear_velocity().as_slice(), f.angular_velocity().as_slice(), f.position.as_slice(), f.orientation().coords.as_slice());
-        println!("{:?} mass {}", im.warnings(), r.mass());
+    let hs: Vec<_> = (0..count)
+        .map(|i| {
+            let cell = [i % 8, i / 8 % 8, i / 64].map(|x| x as Real * 0.5);
+            let turn = Vector::new(0.3 + cell[0], 0.7 + cell[1], cell[2]);
+            world
+                .insert(
+                    RigidBodyBuilder::dynamic()
+                        .translation(Vector::from_array(cell) + Vector::Y * 100.0)
+                        .rotation(turn),
+                    ColliderBuilder::cuboid(0.0365, 0.000_15, 0.021).density(300.0),
+                )
+                .0
+        })
+        .collect();
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, hs[0]).unwrap();
+    let mut im = Immersion::new(Fluid::AIR);
+    if let Some(x) = std::env::args().nth(1) {
+        im.integrator.max_turn = x.parse().unwrap();
     }
+    if let Some(x) = std::env::args().nth(2) {
+        im.integrator.max_travel = x.parse().unwrap();
+    }
+    im.insert_all(hs.iter().copied(), hydro);
+    for _ in 0..120 {
+        im.step(&mut world);
+    }
+    let mut s = 0.0;
+    let mut v = 0.0;
+    for h in &hs {
+        s += world.bodies[*h].angvel().length();
+        v += world.bodies[*h].linvel().length();
+    }
+    println!("mean spin {} speed {}", s / count as f32, v / count as f32);
 }

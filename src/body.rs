@@ -154,6 +154,8 @@ pub(crate) struct BodyConstants {
     pub axes: Rotation3<f64>,
     pub inertia: InertiaConstants<f64>,
     pub law: LawConstants,
+    /// Whether 𝕄 is diagonal and the planform centered on the center of mass, to f32 rounding.
+    pub symmetric: bool,
     /// Mass of the displaced fluid ρV, kg.
     pub displaced_mass: f64,
     /// From the center of mass to the center of buoyancy, m, body axes.
@@ -222,6 +224,12 @@ impl BodyConstants {
             per_length: 1.0 / length,
             chord: 2.0 * extents.y,
         };
+        let diagonal = |m: &Matrix3<f64>| {
+            let rest = m - Matrix3::from_diagonal(&m.diagonal());
+            (0..3).all(|i| rest.row(i).amax() <= 1e-7 * m[(i, i)])
+        };
+        let symmetric =
+            diagonal(&m11) && diagonal(&m22) && m12.amax() <= 1e-7 && center.amax() <= 1e-7;
         let law = match &body.law {
             ViscousLaw::Inviscid => LawConstants::Inviscid,
             ViscousLaw::Physical(law) => {
@@ -240,6 +248,7 @@ impl BodyConstants {
             axes,
             inertia,
             law,
+            symmetric,
             displaced_mass: rho * hydro.volume,
             buoyancy_arm: hydro.centroid - dry.center,
             added_mass,

@@ -76,7 +76,11 @@ pub(super) fn correction(
                 let data = &point.data;
                 let push = manifold.data.normal * (away * data.impulse);
                 impulse += push;
-                let lever = if first { data.solver_dp1 } else { data.solver_dp2 };
+                let lever = if first {
+                    data.solver_dp1
+                } else {
+                    data.solver_dp2
+                };
                 moment += lever.cross(push);
             }
         }

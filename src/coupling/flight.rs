@@ -2,9 +2,7 @@
 
 use super::kind::{Kind, LawLanes};
 use crate::dynamics::Integrator;
-use crate::dynamics::integrate::{
-    Inviscid, Load, Motion, advance, rotate, rotate_back, substeps,
-};
+use crate::dynamics::integrate::{Inviscid, Load, Motion, advance, rotate, rotate_back, substeps};
 use crate::dynamics::kirchhoff::Twist;
 use crate::hydro::viscous::Evaluate;
 use crate::math::{LANES, Lanes};
@@ -62,16 +60,32 @@ pub(super) fn fly(flyers: &mut [Flyer], kinds: &[Kind], dt: f32, integrator: &In
         let mut four: [Flyer; LANES] = std::array::from_fn(|i| group[i.min(filled - 1)]);
         let kinds = four.map(|flyer| &kinds[flyer.kind as usize]);
         match kinds.map(|kind| &kind.law) {
-            [LawLanes::Physical(a), LawLanes::Physical(b), LawLanes::Physical(c), LawLanes::Physical(d)] => {
+            [
+                LawLanes::Physical(a),
+                LawLanes::Physical(b),
+                LawLanes::Physical(c),
+                LawLanes::Physical(d),
+            ] => {
                 let law = crate::hydro::viscous::physical::PhysicalConstants::gather([a, b, c, d]);
                 fly_four(&mut four, kinds, &law, dt, integrator);
             }
-            [LawLanes::Thesis(a), LawLanes::Thesis(b), LawLanes::Thesis(c), LawLanes::Thesis(d)] => {
+            [
+                LawLanes::Thesis(a),
+                LawLanes::Thesis(b),
+                LawLanes::Thesis(c),
+                LawLanes::Thesis(d),
+            ] => {
                 let law = crate::hydro::viscous::thesis::ThesisConstants::gather([a, b, c, d]);
                 fly_four(&mut four, kinds, &law, dt, integrator);
             }
-            [LawLanes::Stochastic(a), LawLanes::Stochastic(b), LawLanes::Stochastic(c), LawLanes::Stochastic(d)] => {
-                let law = crate::hydro::viscous::stochastic::StochasticConstants::gather([a, b, c, d]);
+            [
+                LawLanes::Stochastic(a),
+                LawLanes::Stochastic(b),
+                LawLanes::Stochastic(c),
+                LawLanes::Stochastic(d),
+            ] => {
+                let law =
+                    crate::hydro::viscous::stochastic::StochasticConstants::gather([a, b, c, d]);
                 fly_four(&mut four, kinds, &law, dt, integrator);
             }
             _ => fly_four(&mut four, kinds, &Inviscid, dt, integrator),
@@ -88,8 +102,7 @@ fn fly_four(
     dt: f32,
     integrator: &Integrator,
 ) {
-    let inertia =
-        crate::body::InertiaConstants::gather(kinds.map(|kind| &kind.inertia));
+    let inertia = crate::body::InertiaConstants::gather(kinds.map(|kind| &kind.inertia));
     let scale = crate::coupling::kind::Scales::gather(kinds.map(|kind| &kind.scales));
     let dt = Lanes::splat(dt);
     let vector = |f: fn(&Flyer) -> [f32; 3]| {
@@ -121,23 +134,21 @@ fn fly_four(
         displacement: Vector3::repeat(Lanes::splat(0.0)),
         velocity: Twist {
             linear: kept.linear + rotate_back(&attitude, &vector(|f| f.linear)),
-            angular: kept.angular
-                + rotate_back(&attitude, &(vector(|f| f.angular) * scale.length)),
+            angular: kept.angular + rotate_back(&attitude, &(vector(|f| f.angular) * scale.length)),
         },
         rate: twist(side_by_side(four.map(|f| f.rate))),
     };
     let count = substeps(&inertia, &motion, &load, dt, integrator);
-    let most = (0..LANES).map(|lane| count.extract(lane)).fold(1.0, f32::max);
-    advance(
-        &inertia,
-        law,
-        &load,
-        &mut motion,
-        dt,
-        count,
-        most as u32,
-        integrator.iterations,
-    );
+    let most = (0..LANES)
+        .map(|lane| count.extract(lane))
+        .fold(1.0, f32::max);
+
+    let (m, most, iterations) = (&mut motion, most as u32, integrator.iterations);
+    if kinds.iter().all(|kind| kind.constants.symmetric) {
+        advance::<true, _, _>(&inertia, law, &load, m, dt, count, most, iterations);
+    } else {
+        advance::<false, _, _>(&inertia, law, &load, m, dt, count, most, iterations);
+    }
 
     let linear = rotate(&motion.attitude, &motion.velocity.linear) + stream;
     let angular = rotate(&motion.attitude, &motion.velocity.angular) * inertia.per_length;

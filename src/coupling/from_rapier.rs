@@ -270,12 +270,23 @@ mod tests {
         let mut colliders = ColliderSet::new();
         let handle = bodies.insert(RigidBodyBuilder::dynamic());
         let none = DryMass::of_body(&bodies, &colliders, handle);
-        assert!(matches!(none, Err(Error::InvalidParameter { parameter: "mass", .. })));
+        assert!(matches!(
+            none,
+            Err(Error::InvalidParameter {
+                parameter: "mass",
+                ..
+            })
+        ));
         let hydro = HydroProperties::from_body(&bodies, &colliders, handle);
         assert_eq!(hydro, Err(Error::NoCollider));
         let ground = ColliderBuilder::new(SharedShape::halfspace(Vector::Y));
         colliders.insert_with_parent(ground, handle, &mut bodies);
         let hydro = HydroProperties::from_body(&bodies, &colliders, handle);
-        assert_eq!(hydro, Err(Error::ShapeWithoutVolume { shape: "half-space" }));
+        assert_eq!(
+            hydro,
+            Err(Error::ShapeWithoutVolume {
+                shape: "half-space"
+            })
+        );
     }
 }

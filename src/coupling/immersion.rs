@@ -373,11 +373,16 @@ impl Immersion {
 
     /// Index of the kind of a body with this description and mass.
     pub(super) fn kind_of(&mut self, description: u32, dry: &DryMass) -> Result<u32, Error> {
-        if let Some(index) = self.kinds.iter().rposition(|kind| kind.is(description, dry)) {
+        if let Some(index) = self
+            .kinds
+            .iter()
+            .rposition(|kind| kind.is(description, dry))
+        {
             return Ok(index as u32);
         }
         let body = &self.descriptions[description as usize];
-        self.kinds.push(Kind::new(description, body, dry, &self.fluid)?);
+        self.kinds
+            .push(Kind::new(description, body, dry, &self.fluid)?);
         Ok(self.kinds.len() as u32 - 1)
     }
 }

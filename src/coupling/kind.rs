@@ -136,7 +136,9 @@ impl Kind {
         let impulse = c.added_mass.linear * u + pressure;
         let moment = c.added_mass.coupling.transpose() * u + c.buoyancy_arm.cross(&pressure);
         let velocity = self.inverse_mass
-            * Vector6::new(impulse.x, impulse.y, impulse.z, moment.x, moment.y, moment.z);
+            * Vector6::new(
+                impulse.x, impulse.y, impulse.z, moment.x, moment.y, moment.z,
+            );
         (
             to_real(rotation * velocity.fixed_rows::<3>(0)),
             to_real(rotation * velocity.fixed_rows::<3>(3)),

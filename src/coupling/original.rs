@@ -59,7 +59,11 @@ impl Original {
         let original = Self {
             dry,
             colliders: masses.collect(),
-            additional: body.mass_properties().additional_local_mprops.as_deref().copied(),
+            additional: body
+                .mass_properties()
+                .additional_local_mprops
+                .as_deref()
+                .copied(),
             gyroscopic: body.gyroscopic_forces_enabled(),
             fast_rotation: body.is_fast_rotation_allowed(),
         };

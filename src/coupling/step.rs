@@ -8,8 +8,8 @@ use super::kind::LawLanes;
 use super::original::Original;
 use crate::flow::FlowSample;
 use rapier3d::dynamics::{
-    ImpulseJointSet, IntegrationParameters, IslandManager, LockedAxes, MultibodyJointSet, RigidBody,
-    RigidBodyHandle, RigidBodySet,
+    ImpulseJointSet, IntegrationParameters, IslandManager, LockedAxes, MultibodyJointSet,
+    RigidBody, RigidBodyHandle, RigidBodySet,
 };
 use rapier3d::geometry::{ColliderSet, NarrowPhase};
 use rapier3d::math::{Real, Rotation, Vector};
@@ -138,7 +138,8 @@ impl Immersion {
         scratch.borrowed.clear();
         if self.enabled && dt > 0.0 {
             // Rapier lists a body as active only once it has stepped it: newcomers go first.
-            self.newcomers.sort_unstable_by_key(|handle| handle.into_raw_parts());
+            self.newcomers
+                .sort_unstable_by_key(|handle| handle.into_raw_parts());
             self.newcomers.dedup();
             for index in 0..self.newcomers.len() {
                 self.board(self.newcomers[index], sets, &mut scratch);
@@ -147,7 +148,9 @@ impl Immersion {
                 let key = handle.into_raw_parts();
                 let newcomers = &self.newcomers;
                 if newcomers.is_empty()
-                    || newcomers.binary_search_by_key(&key, |h| h.into_raw_parts()).is_err()
+                    || newcomers
+                        .binary_search_by_key(&key, |h| h.into_raw_parts())
+                        .is_err()
                 {
                     self.board(handle, sets, &mut scratch);
                 }
@@ -156,7 +159,13 @@ impl Immersion {
             for law in 0..LAWS {
                 let flyers = &mut scratch.flyers[law];
                 let passengers = &scratch.passengers[law];
-                self.sample_flow(flyers, passengers, sets, &mut scratch.points, &mut scratch.samples);
+                self.sample_flow(
+                    flyers,
+                    passengers,
+                    sets,
+                    &mut scratch.points,
+                    &mut scratch.samples,
+                );
                 self.fly_all(flyers, dt);
                 for (flyer, passenger) in flyers.iter().zip(passengers) {
                     let borrowed = self.hand_over(flyer, passenger, dt, sets.bodies);
@@ -360,8 +369,8 @@ impl Immersion {
         };
         let solver_mass = slot.flight.solver_mass;
         let new_mass = ((wanted - solver_mass).abs() > MASS_CHANGE * wanted).then_some(wanted);
-        let substeps = sets.integration_parameters.num_solver_iterations
-            + body.additional_solver_iterations();
+        let substeps =
+            sets.integration_parameters.num_solver_iterations + body.additional_solver_iterations();
         let free = normal.is_none() && !held && substeps > 1;
 
         let rapier = *body.rotation() * kind.axes;
@@ -524,7 +533,9 @@ impl Immersion {
         let force = handover.force - passenger.gravity * passenger.solver_mass;
         let finite = force.is_finite()
             && handover.torque.is_finite()
-            && handover.start.is_none_or(|(v, w)| v.is_finite() && w.is_finite());
+            && handover
+                .start
+                .is_none_or(|(v, w)| v.is_finite() && w.is_finite());
         if !finite {
             return None;
         }

@@ -135,18 +135,19 @@ impl FreeBody {
         let count = substeps(inertia, &motion, &load, dt, &self.integrator);
         let (most, iterations) = (count as u32, self.integrator.iterations);
         let m = &mut motion;
+        // One body does not need the path for symmetric ones.
         match &c.law {
             LawConstants::Inviscid => {
-                advance(inertia, &Inviscid, &load, m, dt, count, most, iterations);
+                advance::<false, _, _>(inertia, &Inviscid, &load, m, dt, count, most, iterations);
             }
             LawConstants::Physical(law) => {
-                advance(inertia, law, &load, m, dt, count, most, iterations);
+                advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
             }
             LawConstants::Thesis(law) => {
-                advance(inertia, law, &load, m, dt, count, most, iterations);
+                advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
             }
             LawConstants::Stochastic(law) => {
-                advance(inertia, law, &load, m, dt, count, most, iterations);
+                advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
             }
         }
         self.attitude = UnitQuaternion::new_normalize(motion.attitude);

@@ -17,7 +17,7 @@
 //!
 //! One force evaluation and one 6×6 solve per substep; second order.
 
-use super::kirchhoff::Twist;
+use super::kirchhoff::{Twist, cross};
 use crate::body::InertiaConstants;
 use crate::hydro::viscous::{Evaluate, ViscousTerms, safe_inverse};
 use crate::math::Scalar;
@@ -30,9 +30,9 @@ use rapier3d::na::{Quaternion, Vector3};
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct Integrator {
-    /// A substep turns the body by at most this angle, rad (default 0.15).
+    /// A substep turns the body by at most this angle, rad (default 0.3).
     pub max_turn: f64,
-    /// A substep moves the body by at most this many chords (default 0.1).
+    /// A substep moves the body by at most this many chords (default 0.15).
     pub max_travel: f64,
     /// Never more substeps than this in one step (default 16): accuracy gives way, stability does
     /// not depend on it.
@@ -46,8 +46,8 @@ pub struct Integrator {
 impl Default for Integrator {
     fn default() -> Self {
         Self {
-            max_turn: 0.15,
-            max_travel: 0.1,
+            max_turn: 0.3,
+            max_travel: 0.15,
             max_substeps: 16,
             iterations: 1,
         }
@@ -87,9 +87,9 @@ pub(crate) struct Load<T> {
 #[inline(always)]
 pub(crate) fn rotate<T: Scalar>(q: &Quaternion<T>, v: &Vector3<T>) -> Vector3<T> {
     let a = Vector3::new(q.i, q.j, q.k);
-    let t = a.cross(v);
+    let t = cross(&a, v);
     let t = t + t;
-    v + t * q.w + a.cross(&t)
+    v + t * q.w + cross(&a, &t)
 }
 
 /// `q* v q` for a unit quaternion.
@@ -154,13 +154,18 @@ pub(crate) fn substeps<T: Scalar>(
 }
 
 #[inline(always)]
+fn norm2<T: Scalar>(v: &Vector3<T>) -> T {
+    v.x * v.x + v.y * v.y + v.z * v.z
+}
+
+#[inline(always)]
 fn norm<T: Scalar>(v: &Vector3<T>) -> T {
-    (v.x * v.x + v.y * v.y + v.z * v.z).root()
+    norm2(v).root()
 }
 
 /// Advances `motion` by one substep `h`, which may be zero.
 #[inline(always)]
-pub(crate) fn substep<T: Scalar, L: Evaluate<T>>(
+pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     inertia: &InertiaConstants<T>,
     law: &L,
     load: &Load<T>,
@@ -169,7 +174,6 @@ pub(crate) fn substep<T: Scalar, L: Evaluate<T>>(
     iterations: u32,
 ) {
     let half = T::lit(0.5);
-    let mass = inertia.mass_matrix();
     let start = motion.velocity;
     let mut middle = start.add_scaled(&motion.rate, half * h);
     let mut delta = Twist::zero();
@@ -181,34 +185,29 @@ pub(crate) fn substep<T: Scalar, L: Evaluate<T>>(
             &inertia.center_velocity(&middle),
             &(middle.angular - fluid_spin),
         );
-        let n = inertia.coupling_matrix(&mass, &terms, &middle);
-
         let buoyancy = rotate_back(&attitude, &load.buoyancy);
-        let mut right = n.apply(&start);
-        right.linear += rotate_back(&attitude, &load.force);
-        right.angular += rotate_back(&attitude, &load.torque)
-            + load.buoyancy_arm.cross(&buoyancy)
-            + terms.damping.component_mul(&fluid_spin);
-
-        // θ(z) = (3 + z)/(6 + z) follows the exponential integrator's 1/(1 − e^−z) − 1/z.
-        // z: the fastest decay, of the motion as it is and of the rotation about each axis.
-        let u = &middle.linear;
-        let inertial = u.dot(&(mass.m11 * u));
-        let axis = |i: usize| {
-            (terms.creeping[i] / mass.m11[(i, i)]).larger(terms.damping[i] / mass.m22[(i, i)])
+        let push = Twist {
+            linear: rotate_back(&attitude, &load.force),
+            angular: rotate_back(&attitude, &load.torque)
+                + cross(&load.buoyancy_arm, &buoyancy)
+                + terms.damping.component_mul(&fluid_spin),
         };
-        let pressure = terms.drag * u.dot(u) * safe_inverse(inertial);
-        let z = h * (pressure + axis(0).larger(axis(1)).larger(axis(2)));
-        let theta = (T::lit(3.0) + z) / (T::lit(6.0) + z);
-        let scale = theta * h;
-        let mut system = mass;
-        system.m11 -= n.m11 * scale;
-        system.m12 -= n.m12 * scale;
-        system.m21 -= n.m21 * scale;
-        system.m22 -= n.m22 * scale;
-        right.linear *= h;
-        right.angular *= h;
-        delta = system.solve(&right);
+
+        // z: decay per substep of the motion as it is, and of the rotation about the axis where it
+        // is fastest. θ is just implicit enough that such a decay does not overshoot zero.
+        let u = &middle.linear;
+        let masses = [inertia.m11_xx, inertia.m11_yy, inertia.m11_zz];
+        let inertias = [inertia.m22_xx, inertia.m22_yy, inertia.m22_zz];
+        let inertial = u.x * u.x * masses[0] + u.y * u.y * masses[1] + u.z * u.z * masses[2];
+        let along = |s: T, m: T, k: T, j: T| (s / m).larger(k / j);
+        let (s, k) = (&terms.creeping, &terms.damping);
+        let slow = along(s.x, masses[0], k.x, inertias[0])
+            .larger(along(s.y, masses[1], k.y, inertias[1]))
+            .larger(along(s.z, masses[2], k.z, inertias[2]));
+        let pressure = terms.drag * norm2(u) * safe_inverse(inertial);
+        let z = h * (pressure + slow);
+        let theta = half.larger(T::one() - safe_inverse(z));
+        delta = inertia.increment::<SYMMETRIC>(&terms, &start, &middle, &push, h, theta);
         middle = start.add_scaled(&delta, half);
     }
 
@@ -234,7 +233,7 @@ pub(crate) fn substep<T: Scalar, L: Evaluate<T>>(
     };
 
     let a = middle.angular * (half * h * inertia.per_length);
-    let moved = (middle.linear + a.cross(&middle.linear))
+    let moved = (middle.linear + cross(&a, &middle.linear))
         * (h / (T::one() + a.x * a.x + a.y * a.y + a.z * a.z));
     motion.displacement += rotate(&motion.attitude, &moved);
     motion.attitude = turned(&motion.attitude, &a);
@@ -242,9 +241,9 @@ pub(crate) fn substep<T: Scalar, L: Evaluate<T>>(
 
 /// Advances `motion` by `dt`.
 #[inline(always)]
-pub(crate) fn advance<T: Scalar>(
+pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     inertia: &InertiaConstants<T>,
-    law: &impl Evaluate<T>,
+    law: &L,
     load: &Load<T>,
     motion: &mut Motion<T>,
     dt: T,
@@ -256,7 +255,7 @@ pub(crate) fn advance<T: Scalar>(
     let mut done = T::zero();
     for _ in 0..most {
         let before = *motion;
-        substep(inertia, law, load, motion, h, iterations);
+        substep::<SYMMETRIC, T, L>(inertia, law, load, motion, h, iterations);
         // Lanes that need fewer substeps than their neighbours are done.
         let keep = |new: T, old: T| new.where_less(done, count, old);
         let keep3 = |new: &Vector3<T>, old: &Vector3<T>| new.zip_map(old, keep);

@@ -19,55 +19,68 @@ pub trait Scalar: SimdRealField + Copy {
     /// Natural logarithm; `self` must be positive.
     fn logarithm(self) -> Self;
     /// `self` where it is larger than `other`, in each lane.
+    #[inline(always)]
     fn larger(self, other: Self) -> Self {
         self.simd_max(other)
     }
     /// `self` where it is smaller than `other`, in each lane.
+    #[inline(always)]
     fn smaller(self, other: Self) -> Self {
         self.simd_min(other)
     }
     /// `self` in the lanes where `a < b`, `other` elsewhere (also where `a` or `b` is NaN).
+    #[inline(always)]
     fn where_less(self, a: Self, b: Self, other: Self) -> Self {
         self.select(a.simd_lt(b), other)
     }
     /// Square root; `self` must not be negative.
+    #[inline(always)]
     fn root(self) -> Self {
         self.simd_sqrt()
     }
 }
 
 impl Scalar for f64 {
+    #[inline(always)]
     fn lit(value: f64) -> Self {
         value
     }
+    #[inline(always)]
     fn exponential(self) -> Self {
         self.exp()
     }
+    #[inline(always)]
     fn logarithm(self) -> Self {
         self.ln()
     }
 }
 
 impl Scalar for f32 {
+    #[inline(always)]
     fn lit(value: f64) -> Self {
         value as f32
     }
     // The same polynomials as the lanes use, so that a lane and a scalar give the same bits.
+    #[inline(always)]
     fn exponential(self) -> Self {
         wide::f32x4::splat(self).exp().to_array()[0]
     }
+    #[inline(always)]
     fn logarithm(self) -> Self {
         wide::f32x4::splat(self).ln().to_array()[0]
     }
 }
 
 impl Scalar for Lanes {
+    #[inline(always)]
     fn lit(value: f64) -> Self {
         Self::splat(value as f32)
     }
+    #[inline(always)]
     fn exponential(self) -> Self {
         Self(self.0.exp())
     }
+    #[inline(always)]
     fn logarithm(self) -> Self {
         Self(self.0.ln())
     }

@@ -29,7 +29,12 @@ fn step_by_step() {
         world.gravity = Vector::new(0.0, 0.0, -9.81);
         world.integration_parameters.dt = dt;
         let half = size.map(|x| (x / 2.0) as Real);
-        let start = Rotation::from_euler(rapier3d_immersed::rapier3d::glamx::EulerRot::XYZ, 0.3, 0.5, 0.1);
+        let start = Rotation::from_euler(
+            rapier3d_immersed::rapier3d::glamx::EulerRot::XYZ,
+            0.3,
+            0.5,
+            0.1,
+        );
         let (handle, _) = world.insert(
             RigidBodyBuilder::dynamic().position(Pose::from_parts(Vector::ZERO, start)),
             ColliderBuilder::cuboid(half[0], half[1], half[2]).density(300.0),

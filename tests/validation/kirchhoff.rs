@@ -61,7 +61,11 @@ fn pendulum_period() {
             if crossings == 1 {
                 first = at;
             } else if crossings == 3 {
-                assert!(((at - first) / exact - 1.0).abs() < 1e-6, "{} {exact}", at - first);
+                assert!(
+                    ((at - first) / exact - 1.0).abs() < 1e-6,
+                    "{} {exact}",
+                    at - first
+                );
             }
         }
         last = angle;
@@ -127,7 +131,9 @@ fn invariants_through_rapier() {
             ColliderBuilder::cuboid(half[0], half[1], half[2]).density(2000.0),
         );
         let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
-        let body = ImmersedBody::new(hydro).with_law(ViscousLaw::Inviscid).unwrap();
+        let body = ImmersedBody::new(hydro)
+            .with_law(ViscousLaw::Inviscid)
+            .unwrap();
         let (_, mass) = solid_box(SIZE, 2000.0, ViscousLaw::Inviscid);
         // A twin in f64 only evaluates the invariants at rapier's state.
         let mut twin = FreeBody::new(&body, &mass, &Fluid::WATER).unwrap();
@@ -159,12 +165,16 @@ fn invariants_through_rapier() {
                 (p - impulse).norm() / impulse.norm(),
                 // The moment about the origin is a small difference once the body is far from it.
                 (l - moment).norm()
-                    / (moment.norm() + world.bodies[handle].translation().length() as f64 * p.norm()),
+                    / (moment.norm()
+                        + world.bodies[handle].translation().length() as f64 * p.norm()),
             ];
             worst = std::array::from_fn(|i| worst[i].max(errors[i]));
         }
         eprintln!("{spin} {worst:?}");
-        assert!(worst.iter().all(|error| *error < 1e-4), "spin {spin}: {worst:?}");
+        assert!(
+            worst.iter().all(|error| *error < 1e-4),
+            "spin {spin}: {worst:?}"
+        );
     }
 }
 

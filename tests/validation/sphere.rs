@@ -29,7 +29,10 @@ fn terminal_speed_follows_the_drag_curve() {
             body.step(relaxation / 200.0, Vector3::new(0.0, -gravity, 0.0));
         }
         let fall = -body.linear_velocity().y;
-        assert!((fall / speed - 1.0).abs() < 0.02, "Re {re}: {fall} instead of {speed}");
+        assert!(
+            (fall / speed - 1.0).abs() < 0.02,
+            "Re {re}: {fall} instead of {speed}"
+        );
     }
 }
 
@@ -54,5 +57,8 @@ fn light_sphere_feels_its_added_mass() {
     body.step(dt, Vector3::new(0.0, -9.81, 0.0));
     let exact = (rho - rho_s) * 9.81 / (rho_s + rho / 2.0);
     let acceleration = body.linear_velocity().y / dt;
-    assert!((acceleration / exact - 1.0).abs() < 0.01, "{acceleration} {exact}");
+    assert!(
+        (acceleration / exact - 1.0).abs() < 0.01,
+        "{acceleration} {exact}"
+    );
 }

@@ -1,0 +1,131 @@
+//! What immersion costs per body and step, next to plain rapier in the same run.
+//!
+//! `cargo bench --bench step` times whole steps with criterion, then prints, for each number of
+//! bodies, the marginal cost from medians of runs that alternate between plain and immersed.
+
+use criterion::{BenchmarkId, Criterion};
+use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
+use std::time::{Duration, Instant};
+
+/// Leaves in the air, far enough apart that no pairs form, with a spread of attitudes.
+fn leaves(count: usize) -> (PhysicsWorld, Vec<RigidBodyHandle>) {
+    let mut world = PhysicsWorld::new();
+    let side = (count as f64).cbrt().ceil() as usize;
+    let handles = (0..count)
+        .map(|i| {
+            let cell = [i % side, i / side % side, i / side / side].map(|x| x as Real * 0.5);
+            let turn = Vector::new(0.3 + cell[0], 0.7 + cell[1], cell[2]);
+            let body = RigidBodyBuilder::dynamic()
+                .translation(Vector::from_array(cell) + Vector::Y * 100.0)
+                .rotation(turn);
+            let leaf = ColliderBuilder::cuboid(0.0365, 0.000_15, 0.021).density(300.0);
+            world.insert(body, leaf).0
+        })
+        .collect();
+    (world, handles)
+}
+
+fn immersed(world: &PhysicsWorld, handles: &[RigidBodyHandle]) -> Immersion {
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handles[0]).unwrap();
+    let mut immersion = Immersion::new(Fluid::AIR);
+    immersion.insert_all(handles.iter().copied(), hydro);
+    immersion
+}
+
+/// Time of one step, plain and immersed in turn, and of the hook alone. Warm-up is not counted.
+fn interleaved(count: usize, rounds: usize) -> [Vec<f64>; 3] {
+    let (mut plain, _) = leaves(count);
+    let (mut world, handles) = leaves(count);
+    let mut immersion = immersed(&world, &handles);
+    let mut times = [const { Vec::new() }; 3];
+    for round in 0..rounds + 10 {
+        let start = Instant::now();
+        plain.step();
+        let plain = start.elapsed();
+
+        let start = Instant::now();
+        immersion.before_step(&mut RapierSets::of(&mut world));
+        let before = start.elapsed();
+        world.step();
+        let middle = Instant::now();
+        immersion.after_step(&mut RapierSets::of(&mut world));
+        let whole = start.elapsed();
+        let hook = before + middle.elapsed();
+        if round >= 10 {
+            for (list, time) in times.iter_mut().zip([plain, whole, hook]) {
+                list.push(time.as_secs_f64() * 1e9 / count as f64);
+            }
+        }
+    }
+    times
+}
+
+fn median(times: &mut [f64]) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+/// Leaves at rest on the floor, asleep.
+fn sleeping(count: usize) -> f64 {
+    let (mut world, handles) = leaves(count);
+    let mut immersion = immersed(&world, &handles);
+    immersion.step(&mut world);
+    for handle in &handles {
+        world.bodies[*handle].sleep();
+    }
+    world.step();
+    let mut times: Vec<_> = (0..200)
+        .map(|_| {
+            let start = Instant::now();
+            immersion.before_step(&mut RapierSets::of(&mut world));
+            immersion.after_step(&mut RapierSets::of(&mut world));
+            start.elapsed().as_secs_f64() * 1e9 / count as f64
+        })
+        .collect();
+    median(&mut times)
+}
+
+fn main() {
+    let mut criterion = Criterion::default()
+        .configure_from_args()
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2))
+        .sample_size(20);
+    {
+        let mut group = criterion.benchmark_group("step");
+        for count in [1_000, 10_000] {
+            let (mut world, _) = leaves(count);
+            group.bench_function(BenchmarkId::new("plain", count), |b| {
+                b.iter(|| world.step())
+            });
+            let (mut world, handles) = leaves(count);
+            let mut immersion = immersed(&world, &handles);
+            group.bench_function(BenchmarkId::new("immersed", count), |b| {
+                b.iter(|| immersion.step(&mut world));
+            });
+        }
+        group.finish();
+    }
+    criterion.final_summary();
+
+    // `cargo test --benches` only checks that it runs.
+    let quick = std::env::args().any(|arg| arg == "--test");
+    for (count, rounds) in [(1_000, 400), (10_000, 60), (100_000, 12)] {
+        let (count, rounds) = if quick { (100, 3) } else { (count, rounds) };
+        let [mut plain, mut whole, mut hook] = interleaved(count, rounds);
+        let (plain, whole) = (median(&mut plain), median(&mut whole));
+        println!(
+            "immersion: {count} bodies: {:.0} ns per body-step over plain, ratio {:.2} \
+             (plain {plain:.0} ns, hook alone {:.0} ns)",
+            whole - plain,
+            whole / plain,
+            median(&mut hook),
+        );
+    }
+    let count = if quick { 100 } else { 10_000 };
+    println!(
+        "immersion: {count} sleeping bodies: {:.1} ns per body-step",
+        sleeping(count)
+    );
+}
