@@ -6,15 +6,18 @@ use crate::fluid::Fluid;
 use crate::hydro::viscous::physical::PhysicalConstants;
 use crate::hydro::viscous::stochastic::StochasticConstants;
 use crate::hydro::viscous::thesis::ThesisConstants;
-use crate::math::{scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
+use crate::math::{Lanes, scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
 use rapier3d::dynamics::MassProperties;
 use rapier3d::math::{Rotation, Vector};
-use rapier3d::na::{Matrix3, Matrix6, UnitQuaternion, Vector6};
+use rapier3d::na::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 
 /// The law's constants in rapier's precision.
 #[derive(Clone, Debug)]
 pub(super) enum LawLanes {
     Inviscid,
+    /// The default law for a body that is purely a plate to it …
+    Plate(PhysicalConstants<f32>),
+    /// … and for one that is not.
     Physical(PhysicalConstants<f32>),
     Thesis(ThesisConstants<f32>),
     Stochastic(StochasticConstants<f32>),
@@ -37,6 +40,52 @@ scalar_struct! {
         arm_x,
         arm_y,
         arm_z,
+        /// Rotational inertia that rapier is given, I + ρA₂₂, plate axes, kg·m²: upper triangle.
+        turn_xx,
+        turn_xy,
+        turn_xz,
+        turn_yy,
+        turn_yz,
+        turn_zz,
+    }
+}
+
+impl Scales<Lanes> {
+    /// Torque that causes an angular acceleration in rapier, plate axes.
+    #[inline(always)]
+    pub fn turn(&self, a: &Vector3<Lanes>) -> Vector3<Lanes> {
+        Vector3::new(
+            self.turn_xx * a.x + self.turn_xy * a.y + self.turn_xz * a.z,
+            self.turn_xy * a.x + self.turn_yy * a.y + self.turn_yz * a.z,
+            self.turn_xz * a.x + self.turn_yz * a.y + self.turn_zz * a.z,
+        )
+    }
+}
+
+/// Which code a body takes through the step. Bodies of one route are advanced side by side, so that
+/// what happens to one never depends on who its neighbours are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Route {
+    /// See [`BodyConstants::symmetric`].
+    pub symmetric: bool,
+    law: u8,
+}
+
+impl Route {
+    /// Number of routes.
+    pub const COUNT: usize = 10;
+
+    /// All routes, in the order of their indices.
+    pub fn all() -> impl Iterator<Item = Self> {
+        (0..Self::COUNT as u8).map(|index| Self {
+            symmetric: index % 2 == 1,
+            law: index / 2,
+        })
+    }
+
+    /// Index among all routes.
+    pub fn index(self) -> usize {
+        usize::from(self.law * 2 + u8::from(self.symmetric))
     }
 }
 
@@ -51,8 +100,9 @@ pub(super) struct Kind {
     pub scales: Scales<f32>,
     /// Plate axes to the body's frame.
     pub axes: Rotation,
-    /// Rotational inertia that rapier is given, I + ρA₂₂, plate axes, kg·m².
-    pub rotational_inertia: [[f32; 3]; 3],
+    pub route: Route,
+    /// Whether buoyancy has a torque.
+    pub buoyancy_turns: bool,
     /// Inverse of the 6×6 mass of body and fluid about the center of mass, body axes.
     pub inverse_mass: Matrix6<f64>,
     /// Whether a push at the center of mass turns the body (A₁₂ ≠ 0).
@@ -71,7 +121,14 @@ impl Kind {
         let constants = BodyConstants::new(body, dry, fluid)?;
         let law = match &constants.law {
             LawConstants::Inviscid => LawLanes::Inviscid,
-            LawConstants::Physical(law) => LawLanes::Physical(PhysicalConstants::from_f64(law)),
+            LawConstants::Physical(law) => {
+                let lanes = PhysicalConstants::from_f64(law);
+                if law.plate_share == 1.0 {
+                    LawLanes::Plate(lanes)
+                } else {
+                    LawLanes::Physical(lanes)
+                }
+            }
             LawConstants::Thesis(law) => LawLanes::Thesis(ThesisConstants::from_f64(law)),
             LawConstants::Stochastic(law) => {
                 LawLanes::Stochastic(StochasticConstants::from_f64(law))
@@ -79,6 +136,26 @@ impl Kind {
         };
         let (mass, length) = (constants.mass, constants.length);
         let arm = constants.axes.inverse() * constants.buoyancy_arm / length;
+        let mut whole = constants.added_mass.to_matrix6();
+        let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
+        linear += Matrix3::from_diagonal_element(dry.mass);
+        let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
+        angular += dry.inertia;
+        let inverse_mass = whole.try_inverse().ok_or(Error::UnphysicalAddedMass)?;
+        let coupling = constants.added_mass.coupling.norm();
+        let turn = constants.axes.inverse().matrix()
+            * whole.fixed_view::<3, 3>(3, 3)
+            * constants.axes.matrix();
+        let route = Route {
+            symmetric: constants.symmetric,
+            law: match law {
+                LawLanes::Inviscid => 0,
+                LawLanes::Plate(_) => 1,
+                LawLanes::Physical(_) => 2,
+                LawLanes::Thesis(_) => 3,
+                LawLanes::Stochastic(_) => 4,
+            },
+        };
         let scales = Scales {
             length,
             per_mass: 1.0 / mass,
@@ -88,26 +165,21 @@ impl Kind {
             arm_x: arm.x,
             arm_y: arm.y,
             arm_z: arm.z,
+            turn_xx: turn[(0, 0)],
+            turn_xy: turn[(0, 1)],
+            turn_xz: turn[(0, 2)],
+            turn_yy: turn[(1, 1)],
+            turn_yz: turn[(1, 2)],
+            turn_zz: turn[(2, 2)],
         };
-        let mut whole = constants.added_mass.to_matrix6();
-        let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
-        linear += Matrix3::from_diagonal_element(dry.mass);
-        let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
-        angular += dry.inertia;
-        let inverse_mass = whole.try_inverse().ok_or(Error::UnphysicalAddedMass)?;
-        let coupling = constants.added_mass.coupling.norm();
-        let plate = constants.axes.inverse().matrix()
-            * whole.fixed_view::<3, 3>(3, 3)
-            * constants.axes.matrix();
         Ok(Self {
             description,
             inertia: InertiaConstants::from_f64(&constants.inertia),
             law,
             scales: Scales::from_f64(&scales),
             axes: to_rotation(UnitQuaternion::from_rotation_matrix(&constants.axes)),
-            rotational_inertia: std::array::from_fn(|i| {
-                std::array::from_fn(|j| plate[(i, j)] as f32)
-            }),
+            route,
+            buoyancy_turns: arm.amax() > 1e-7,
             inverse_mass,
             coupled: coupling > 1e-6 * mass * length,
             constants,

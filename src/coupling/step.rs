@@ -1,10 +1,9 @@
 //! Before and after rapier's step.
 
 use super::contact;
-use super::flight::{Flyer, fly};
-use super::handover::Target;
+use super::flight::{Clock, Flyer, fly};
 use super::immersion::{Immersion, NONE, Warning};
-use super::kind::LawLanes;
+use super::kind::Route;
 use super::original::Original;
 use crate::flow::FlowSample;
 use rapier3d::dynamics::{
@@ -55,17 +54,14 @@ impl<'a> RapierSets<'a> {
 /// Memory that is reused from step to step.
 #[derive(Clone, Default)]
 pub(super) struct Scratch {
-    /// The bodies that this step moves, by law.
-    flyers: [Vec<Flyer>; LAWS],
-    /// The same bodies as rapier sees them.
-    passengers: [Vec<Passenger>; LAWS],
+    /// The bodies that this step moves, by route.
+    flyers: [Vec<Flyer>; Route::COUNT],
     /// Bodies between `before_step` and `after_step`.
     borrowed: Vec<Borrowed>,
     points: Vec<Vector>,
     samples: Vec<FlowSample>,
 }
 
-const LAWS: usize = 4;
 /// Sleeping and stale slots are looked at once in this many steps.
 const SWEEP: u32 = 16;
 /// A gust wakes a body when the pressure it could exert changes by this share of the weight.
@@ -74,25 +70,6 @@ const WAKE_SHARE: Real = 0.25;
 const ROUNDING: Real = 2e-6;
 /// Change of the solver's mass near contacts that is worth telling rapier.
 const MASS_CHANGE: Real = 0.02;
-
-#[derive(Clone, Copy)]
-struct Passenger {
-    handle: RigidBodyHandle,
-    /// Attitude (plate to world) and velocities that rapier has.
-    attitude: Rotation,
-    linear: Vector,
-    angular: Vector,
-    gravity: Vector,
-    substeps: usize,
-    solver_mass: Real,
-    /// The solver's mass that its contacts ask for, if it changed.
-    new_mass: Option<Real>,
-    /// Touches nothing and is held by nothing.
-    free: bool,
-    /// Goes on with the velocity relative to the fluid that was integrated.
-    goes_on: bool,
-    may_sleep: bool,
-}
 
 #[derive(Clone, Copy)]
 struct Borrowed {
@@ -134,7 +111,6 @@ impl Immersion {
         let dt = sets.integration_parameters.dt;
         let mut scratch = std::mem::take(&mut self.scratch);
         scratch.flyers.iter_mut().for_each(Vec::clear);
-        scratch.passengers.iter_mut().for_each(Vec::clear);
         scratch.borrowed.clear();
         if self.enabled && dt > 0.0 {
             // Rapier lists a body as active only once it has stepped it: newcomers go first.
@@ -156,19 +132,17 @@ impl Immersion {
                 }
             }
             self.newcomers.clear();
-            for law in 0..LAWS {
-                let flyers = &mut scratch.flyers[law];
-                let passengers = &scratch.passengers[law];
-                self.sample_flow(
-                    flyers,
-                    passengers,
-                    sets,
-                    &mut scratch.points,
-                    &mut scratch.samples,
-                );
-                self.fly_all(flyers, dt);
-                for (flyer, passenger) in flyers.iter().zip(passengers) {
-                    let borrowed = self.hand_over(flyer, passenger, dt, sets.bodies);
+            let clock = Clock {
+                dt,
+                substeps: sets.integration_parameters.num_solver_iterations,
+                integrator: self.integrator,
+            };
+            for route in Route::all() {
+                let flyers = &mut scratch.flyers[route.index()];
+                self.sample_flow(flyers, sets, &mut scratch.points, &mut scratch.samples);
+                self.fly_all(flyers, route, &clock);
+                for flyer in flyers {
+                    let borrowed = self.hand_over(flyer, sets.bodies);
                     scratch.borrowed.extend(borrowed);
                 }
             }
@@ -332,35 +306,16 @@ impl Immersion {
 
     /// Puts an awake body on the list of those that this step moves, if it is immersed.
     fn board(&self, handle: RigidBodyHandle, sets: &RapierSets, scratch: &mut Scratch) {
-        if let Some((law, flyer, passenger)) = self.read(handle, sets) {
-            scratch.flyers[law].push(flyer);
-            scratch.passengers[law].push(passenger);
-        }
-    }
-
-    /// Reads a body. `None` if it is not immersed, or not dynamic.
-    fn read(
-        &self,
-        handle: RigidBodyHandle,
-        sets: &RapierSets,
-    ) -> Option<(usize, Flyer, Passenger)> {
-        let index = self.slot_index(handle)?;
-        let slot = self.slots[index].as_ref()?;
-        if slot.original.is_none() || slot.kind == NONE {
-            return None;
-        }
-        let body = sets.bodies.get(handle)?;
-        if !body.is_dynamic() {
-            return None;
+        let Some(index) = self.slot_index(handle) else {
+            return;
+        };
+        let (Some(slot), Some(body)) = (self.slots[index].as_ref(), sets.bodies.get(handle)) else {
+            return;
+        };
+        if slot.original.is_none() || slot.kind == NONE || !body.is_dynamic() {
+            return;
         }
         let kind = &self.kinds[slot.kind as usize];
-        let law = match kind.law {
-            LawLanes::Inviscid => 0,
-            LawLanes::Physical(_) => 1,
-            LawLanes::Thesis(_) => 2,
-            LawLanes::Stochastic(_) => 3,
-        };
-
         let normal = contact::normal(body, sets.narrow_phase);
         let held = is_held(body, handle, sets);
         let wanted = match normal {
@@ -368,10 +323,9 @@ impl Immersion {
             None => kind.constants.dry.mass as Real,
         };
         let solver_mass = slot.flight.solver_mass;
-        let new_mass = ((wanted - solver_mass).abs() > MASS_CHANGE * wanted).then_some(wanted);
-        let substeps =
-            sets.integration_parameters.num_solver_iterations + body.additional_solver_iterations();
-        let free = normal.is_none() && !held && substeps > 1;
+        let new_mass = (wanted - solver_mass).abs() > MASS_CHANGE * wanted;
+        // A body with substeps of its own is handed over like one in contact.
+        let free = normal.is_none() && !held && body.additional_solver_iterations() == 0;
 
         let rapier = *body.rotation() * kind.axes;
         let flight = &slot.flight;
@@ -403,44 +357,41 @@ impl Immersion {
             (rapier, [0.0; 6], [0.0; 6], body.linvel(), body.angvel())
         };
         let gravity = sets.gravity * body.gravity_scale();
-        let flyer = Flyer {
+        scratch.flyers[kind.route.index()].push(Flyer {
+            handle,
             slot: index as u32,
             kind: slot.kind,
+            free,
+            may_sleep: normal.is_some() || held,
+            goes_on,
+            solver_mass: if new_mass { wanted } else { solver_mass },
+            new_mass,
             attitude: attitude.to_array(),
             velocity,
+            rate,
             linear: linear.to_array(),
             angular: angular.to_array(),
-            rate,
             stream: [0.0; 3],
             vorticity: [0.0; 3],
             gravity: gravity.to_array(),
             force: body.user_force().to_array(),
             torque: body.user_torque().to_array(),
+            rapier_attitude: rapier.to_array(),
+            rapier_linear: body.linvel().to_array(),
+            rapier_angular: body.angvel().to_array(),
             end_linear: [0.0; 3],
             end_angular: [0.0; 3],
-            displacement: [0.0; 3],
-        };
-        let passenger = Passenger {
-            handle,
-            attitude: rapier,
-            linear: body.linvel(),
-            angular: body.angvel(),
-            gravity,
-            substeps,
-            solver_mass: new_mass.unwrap_or(solver_mass),
-            new_mass,
-            free,
-            goes_on,
-            may_sleep: normal.is_some() || held,
-        };
-        Some((law, flyer, passenger))
+            start_linear: [0.0; 3],
+            start_angular: [0.0; 3],
+            push: [0.0; 3],
+            twist: [0.0; 3],
+        });
     }
 
     /// Reads the flow at every flyer, and lets a flow that changes push the bodies in it.
     fn sample_flow(
         &mut self,
         flyers: &mut [Flyer],
-        passengers: &[Passenger],
         sets: &RapierSets,
         points: &mut Vec<Vector>,
         samples: &mut Vec<FlowSample>,
@@ -449,14 +400,15 @@ impl Immersion {
             return;
         };
         points.clear();
-        points.extend(flyers.iter().filter_map(|flyer| {
-            let slot = self.slots[flyer.slot as usize].as_ref()?;
-            Some(sets.bodies.get(slot.handle)?.center_of_mass())
-        }));
+        points.extend(
+            flyers
+                .iter()
+                .filter_map(|flyer| Some(sets.bodies.get(flyer.handle)?.center_of_mass())),
+        );
         samples.clear();
         samples.resize(points.len(), FlowSample::default());
         flow.sample(points, self.time, samples);
-        for ((flyer, passenger), sample) in flyers.iter_mut().zip(passengers).zip(samples.iter()) {
+        for (flyer, sample) in flyers.iter_mut().zip(samples.iter()) {
             if !sample.velocity.is_finite() || !sample.vorticity.is_finite() {
                 continue;
             }
@@ -468,7 +420,7 @@ impl Immersion {
             let mut linear = Vector::from_array(flyer.linear);
             // In the frame of the fluid: a body that goes on is there already, but the frame itself
             // has changed its velocity.
-            linear -= if passenger.goes_on {
+            linear -= if flyer.goes_on {
                 sample.velocity - slot.flight.stream
             } else {
                 sample.velocity
@@ -486,7 +438,7 @@ impl Immersion {
         }
     }
 
-    fn fly_all(&self, flyers: &mut [Flyer], dt: Real) {
+    fn fly_all(&self, flyers: &mut [Flyer], route: Route, clock: &Clock) {
         #[cfg(feature = "parallel")]
         {
             use crate::math::LANES;
@@ -496,79 +448,57 @@ impl Immersion {
             if flyers.len() > TASK {
                 flyers
                     .par_chunks_mut(TASK)
-                    .for_each(|task| fly(task, &self.kinds, dt, &self.integrator));
+                    .for_each(|task| fly(task, &self.kinds, route, clock));
                 return;
             }
         }
-        fly(flyers, &self.kinds, dt, &self.integrator);
+        fly(flyers, &self.kinds, route, clock);
     }
 
     /// Writes what the step shall do to one body, and keeps what must be given back.
-    fn hand_over(
-        &mut self,
-        flyer: &Flyer,
-        passenger: &Passenger,
-        dt: Real,
-        bodies: &mut RigidBodySet,
-    ) -> Option<Borrowed> {
-        let body = bodies.get_mut(passenger.handle)?;
-        let kind = &self.kinds[flyer.kind as usize];
-        let target = Target {
-            dt,
-            substeps: passenger.substeps,
-            attitude: passenger.attitude,
-            end_attitude: Rotation::from_array(flyer.attitude),
-            linear: passenger.linear,
-            angular: passenger.angular,
-            end_linear: Vector::from_array(flyer.end_linear),
-            end_angular: Vector::from_array(flyer.end_angular),
-            displacement: Vector::from_array(flyer.displacement),
-            solver_mass: passenger.solver_mass,
-        };
-        let handover = if passenger.free {
-            target.free(kind)
-        } else {
-            target.by_force(kind)
-        };
-        let force = handover.force - passenger.gravity * passenger.solver_mass;
-        let finite = force.is_finite()
-            && handover.torque.is_finite()
-            && handover
-                .start
-                .is_none_or(|(v, w)| v.is_finite() && w.is_finite());
-        if !finite {
+    fn hand_over(&mut self, flyer: &Flyer, bodies: &mut RigidBodySet) -> Option<Borrowed> {
+        let body = bodies.get_mut(flyer.handle)?;
+        let [force, torque, start_linear, start_angular] = [
+            flyer.push,
+            flyer.twist,
+            flyer.start_linear,
+            flyer.start_angular,
+        ]
+        .map(Vector::from_array);
+        if !(force + torque + start_linear + start_angular).is_finite() {
             return None;
         }
         let borrowed = Borrowed {
-            handle: passenger.handle,
+            handle: flyer.handle,
             slot: flyer.slot,
             force: body.user_force(),
             torque: body.user_torque(),
-            touching: passenger.may_sleep,
+            touching: flyer.may_sleep,
         };
-        if let Some((linear, angular)) = handover.start {
-            body.set_linvel(linear, false);
-            body.set_angvel(angular, false);
+        if flyer.free {
+            body.set_linvel(start_linear, false);
+            body.set_angvel(start_angular, false);
         }
         body.reset_forces(false);
         body.reset_torques(false);
         body.add_force(force, false);
-        body.add_torque(handover.torque, false);
-        if !passenger.may_sleep {
+        body.add_torque(torque, false);
+        if !flyer.may_sleep {
             // Drifting slowly through water is not resting.
             body.activation_mut().time_since_can_sleep = 0.0;
         }
         let slot = self.slots[flyer.slot as usize].as_mut()?;
-        if let Some(mass) = passenger.new_mass {
-            let properties = kind.rapier_mass_properties(mass.into());
+        if flyer.new_mass {
+            let kind = &self.kinds[flyer.kind as usize];
+            let properties = kind.rapier_mass_properties(flyer.solver_mass.into());
             body.set_additional_mass_properties(properties, false);
-            slot.flight.solver_mass = mass;
+            slot.flight.solver_mass = flyer.solver_mass;
         }
         slot.flight.attitude = flyer.attitude;
         slot.flight.velocity = flyer.velocity;
         slot.flight.rate = flyer.rate;
-        slot.flight.end_linear = target.end_linear;
-        slot.flight.end_angular = target.end_angular;
+        slot.flight.end_linear = Vector::from_array(flyer.end_linear);
+        slot.flight.end_angular = Vector::from_array(flyer.end_angular);
         slot.flight.flying = true;
         Some(borrowed)
     }

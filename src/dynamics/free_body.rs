@@ -123,6 +123,7 @@ impl FreeBody {
             buoyancy,
             buoyancy_arm: c.axes.inverse() * c.buoyancy_arm / c.length,
             fluid_spin: math::to_f64(flow.vorticity) * (0.5 * c.length),
+            turning: true,
         };
         let mut motion = Motion {
             attitude: *self.attitude.quaternion(),

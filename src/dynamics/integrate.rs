@@ -81,6 +81,8 @@ pub(crate) struct Load<T> {
     pub buoyancy_arm: Vector3<T>,
     /// Half the vorticity of the fluid times L, m/s: the spin at which damping rests.
     pub fluid_spin: Vector3<T>,
+    /// Whether torque, buoyancy arm or fluid spin are not zero for some body.
+    pub turning: bool,
 }
 
 /// `q v q*` for a unit quaternion.
@@ -180,18 +182,25 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     for _ in 0..iterations.max(L::LEAST_ITERATIONS) {
         let half_turn = middle.angular * (half * h * inertia.per_length);
         let attitude = turned(&motion.attitude, &(half_turn * half));
-        let fluid_spin = rotate_back(&attitude, &load.fluid_spin);
+        let fluid_spin = if load.turning {
+            rotate_back(&attitude, &load.fluid_spin)
+        } else {
+            Vector3::repeat(T::zero())
+        };
         let terms = law.terms(
             &inertia.center_velocity(&middle),
             &(middle.angular - fluid_spin),
         );
-        let buoyancy = rotate_back(&attitude, &load.buoyancy);
-        let push = Twist {
+        let mut push = Twist {
             linear: rotate_back(&attitude, &load.force),
-            angular: rotate_back(&attitude, &load.torque)
-                + cross(&load.buoyancy_arm, &buoyancy)
-                + terms.damping.component_mul(&fluid_spin),
+            angular: Vector3::repeat(T::zero()),
         };
+        if load.turning {
+            let buoyancy = rotate_back(&attitude, &load.buoyancy);
+            push.angular = rotate_back(&attitude, &load.torque)
+                + cross(&load.buoyancy_arm, &buoyancy)
+                + terms.damping.component_mul(&fluid_spin);
+        }
 
         // z: decay per substep of the motion as it is, and of the rotation about the axis where it
         // is fastest. θ is just implicit enough that such a decay does not overshoot zero.
@@ -211,25 +220,16 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
         middle = start.add_scaled(&delta, half);
     }
 
-    let end = start.add_scaled(&delta, T::one());
-    // Whatever went wrong (a law that pumps, a fluid at 10⁶ m/s), rapier never sees it: NaN fails
-    // the comparison, and the body coasts for this substep.
-    let size = norm(&end.linear) + norm(&end.angular);
-    let limit = T::lit(1e6);
-    let keep = |new: T, old: T| new.where_less(size, limit, old);
-    let choose = |new: &Vector3<T>, old: &Vector3<T>| new.zip_map(old, keep);
-    motion.velocity = Twist {
-        linear: choose(&end.linear, &start.linear),
-        angular: choose(&end.angular, &start.angular),
+    motion.velocity = start.add_scaled(&delta, T::one());
+    // A lane that is done has h = 0 and keeps its history.
+    let done = T::lit(1e-12);
+    let per_h = T::one() / h.larger(done);
+    let rate = |new: &Vector3<T>, old: &Vector3<T>| {
+        new.zip_map(old, |new, old| old.where_less(h, done, new * per_h))
     };
-    let middle = Twist {
-        linear: (start.linear + motion.velocity.linear) * half,
-        angular: (start.angular + motion.velocity.angular) * half,
-    };
-    let per_h = T::one() / h.larger(T::lit(1e-12));
     motion.rate = Twist {
-        linear: (motion.velocity.linear - start.linear) * per_h,
-        angular: (motion.velocity.angular - start.angular) * per_h,
+        linear: rate(&delta.linear, &motion.rate.linear),
+        angular: rate(&delta.angular, &motion.rate.angular),
     };
 
     let a = middle.angular * (half * h * inertia.per_length);
@@ -239,8 +239,9 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     motion.attitude = turned(&motion.attitude, &a);
 }
 
-/// Advances `motion` by `dt`.
+/// Advances `motion` by `dt` in `count` substeps, of which `most` is the largest over the lanes.
 #[inline(always)]
+#[allow(clippy::too_many_arguments)]
 pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     inertia: &InertiaConstants<T>,
     law: &L,
@@ -251,24 +252,30 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     most: u32,
     iterations: u32,
 ) {
+    let start = *motion;
     let h = dt / count;
     let mut done = T::zero();
     for _ in 0..most {
-        let before = *motion;
+        // Lanes that need fewer substeps than their neighbours stand still.
+        let h = h.where_less(done, count, T::zero());
         substep::<SYMMETRIC, T, L>(inertia, law, load, motion, h, iterations);
-        // Lanes that need fewer substeps than their neighbours are done.
-        let keep = |new: T, old: T| new.where_less(done, count, old);
-        let keep3 = |new: &Vector3<T>, old: &Vector3<T>| new.zip_map(old, keep);
-        let (new, old) = (*motion, before);
-        motion.displacement = keep3(&new.displacement, &old.displacement);
-        motion.velocity.linear = keep3(&new.velocity.linear, &old.velocity.linear);
-        motion.velocity.angular = keep3(&new.velocity.angular, &old.velocity.angular);
-        motion.rate.linear = keep3(&new.rate.linear, &old.rate.linear);
-        motion.rate.angular = keep3(&new.rate.angular, &old.rate.angular);
-        motion.attitude =
-            Quaternion::from_vector(new.attitude.coords.zip_map(&old.attitude.coords, keep));
         done += T::one();
     }
+    // Whatever went wrong (a law that pumps, a fluid at 10⁶ m/s), rapier never sees it: NaN fails
+    // the comparison, and the body coasts through this step.
+    let size =
+        norm(&motion.velocity.linear) + norm(&motion.velocity.angular) + norm(&motion.displacement);
+    let limit = T::lit(1e6);
+    let keep = |new: T, old: T| new.where_less(size, limit, old);
+    let keep3 = |new: &Vector3<T>, old: &Vector3<T>| new.zip_map(old, keep);
+    motion.velocity.linear = keep3(&motion.velocity.linear, &start.velocity.linear);
+    motion.velocity.angular = keep3(&motion.velocity.angular, &start.velocity.angular);
+    motion.rate.linear = keep3(&motion.rate.linear, &Vector3::repeat(T::zero()));
+    motion.rate.angular = keep3(&motion.rate.angular, &Vector3::repeat(T::zero()));
+    let coasting = rotate(&start.attitude, &start.velocity.linear) * dt;
+    motion.displacement = keep3(&motion.displacement, &coasting);
+    let attitude = motion.attitude.coords.zip_map(&start.attitude.coords, keep);
+    motion.attitude = Quaternion::from_vector(attitude);
 }
 
 #[cfg(test)]

@@ -308,9 +308,27 @@ impl PhysicalLaw {
     }
 }
 
+/// The law of bodies that are plates through and through: no bluff body's share to compute.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlatesOnly<'a, T>(pub &'a PhysicalConstants<T>);
+
+impl<T: Scalar> Evaluate<T> for PlatesOnly<'_, T> {
+    #[inline(always)]
+    fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
+        self.0.evaluate::<false>(u, w)
+    }
+}
+
 impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
     #[inline(always)]
     fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
+        self.evaluate::<true>(u, w)
+    }
+}
+
+impl<T: Scalar> PhysicalConstants<T> {
+    #[inline(always)]
+    fn evaluate<const BLUFF: bool>(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
         let one = T::one();
         let tangential2 = u.x * u.x + u.y * u.y;
         let speed = (tangential2 + u.z * u.z).root();
@@ -344,16 +362,21 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let plate = self.dynamic_area * v_speed * (edgewise + (broadside - edgewise) * sine2);
 
         // Drag of a bluff body on its shadow: Clift & Gauvin without the Stokes term.
-        let shadow_speed =
-            (self.shadow_x2 * u.x * u.x + self.shadow_y2 * u.y * u.y + self.shadow_z2 * u.z * u.z)
+        let drag = if BLUFF {
+            let shadow_speed = (self.shadow_x2 * u.x * u.x
+                + self.shadow_y2 * u.y * u.y
+                + self.shadow_z2 * u.z * u.z)
                 .root();
-        let log_bluff = (speed * self.bluff_reynolds_scale)
-            .larger(T::lit(1e-3))
-            .logarithm();
-        let bluff = T::lit(3.6) * (log_bluff * T::lit(-0.313)).exponential()
-            + self.bluff_plateau
-                / (one + T::lit(42500.0) * (log_bluff * T::lit(-1.16)).exponential());
-        let drag = self.plate_share * plate + shadow_speed * bluff;
+            let log_re = (speed * self.bluff_reynolds_scale)
+                .larger(T::lit(1e-3))
+                .logarithm();
+            let bluff = T::lit(3.6) * (log_re * T::lit(-0.313)).exponential()
+                + self.bluff_plateau
+                    / (one + T::lit(42500.0) * (log_re * T::lit(-1.16)).exponential());
+            self.plate_share * plate + shadow_speed * bluff
+        } else {
+            plate
+        };
 
         // Lifts.
         let onset = self.lift_onset / re;
@@ -380,11 +403,15 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
             drag,
             creeping: Vector3::new(self.creeping_x, self.creeping_y, self.creeping_z),
             translational_lift: Vector3::new(-u.y, u.x, T::zero()) * translational,
-            rotational_lift: Vector3::new(
-                rotational * w.x + self.magnus * w.x,
-                rotational * w.y + self.magnus * w.y,
-                self.magnus * w.z,
-            ),
+            rotational_lift: if BLUFF {
+                Vector3::new(
+                    (rotational + self.magnus) * w.x,
+                    (rotational + self.magnus) * w.y,
+                    self.magnus * w.z,
+                )
+            } else {
+                Vector3::new(rotational * w.x, rotational * w.y, T::zero())
+            },
             arm,
             arm_moves: true,
             damping: Vector3::new(
