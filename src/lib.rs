@@ -13,7 +13,7 @@ pub mod hydro;
 mod math;
 
 pub use body::{DryMass, ImmersedBody};
-pub use coupling::{Immersion, RapierSets, Warning};
+pub use coupling::{ForceAndTorque, ForceBreakdown, Immersion, RapierSets, Warning, preset};
 pub use dynamics::{FreeBody, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;

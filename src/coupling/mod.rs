@@ -7,7 +7,10 @@ mod handover;
 mod immersion;
 mod kind;
 mod original;
+pub mod preset;
+mod readout;
 mod step;
 
 pub use immersion::{Immersion, Warning};
+pub use readout::{ForceAndTorque, ForceBreakdown};
 pub use step::RapierSets;

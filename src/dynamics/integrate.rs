@@ -32,7 +32,7 @@ use rapier3d::na::{Quaternion, Vector3};
 pub struct Integrator {
     /// A substep turns the body by at most this angle, rad (default 0.3).
     pub max_turn: f64,
-    /// A substep moves the body by at most this many chords (default 0.15).
+    /// A substep moves the body by at most this many chords (default 0.2).
     pub max_travel: f64,
     /// Never more substeps than this in one step (default 16): accuracy gives way, stability does
     /// not depend on it.
@@ -47,7 +47,7 @@ impl Default for Integrator {
     fn default() -> Self {
         Self {
             max_turn: 0.3,
-            max_travel: 0.15,
+            max_travel: 0.2,
             max_substeps: 16,
             iterations: 1,
         }

@@ -107,9 +107,14 @@ macro_rules! scalar_struct {
         }
 
         impl $name<$crate::math::Lanes> {
-            /// Four bodies side by side.
+            /// Four bodies side by side. Bodies that share their constants are the common case.
             #[inline(always)]
             pub(crate) fn gather(bodies: [&$name<f32>; $crate::math::LANES]) -> Self {
+                let [first, rest @ ..] = bodies;
+                if rest.iter().all(|other| std::ptr::eq(first, *other)) {
+                    use rapier3d::na::SimdValue;
+                    return Self { $($field: $crate::math::Lanes::splat(first.$field),)+ };
+                }
                 Self { $($field: $crate::math::Lanes::from(bodies.map(|b| b.$field)),)+ }
             }
         }

@@ -18,13 +18,16 @@ fn quaternion(q: &Rotation) -> UnitQuaternion<f64> {
     ))
 }
 
-/// A leaf in air under gravity. Each step of rapier is compared with a step of the f64 integrator
+/// A leaf in air under gravity at 240 Hz, and a large card at 60 Hz: both turn by up to a quarter of
+/// a radian per step. Each step of rapier is compared with a step of the f64 integrator
 /// from the same state: velocities to 10⁻⁵ of the speed, pose within what the bound
 /// 0.125·|Δv|·dt allows. (Step by step, because a falling leaf is too sensitive for a whole path.)
 #[test]
 fn step_by_step() {
-    let size = [0.073, 0.042, 0.0003];
-    for dt in [1.0 / 60.0, 1.0 / 240.0] {
+    for (dt, size) in [
+        (1.0 / 240.0, [0.073, 0.042, 0.0003]),
+        (1.0 / 60.0, [0.3, 0.2, 0.001]),
+    ] {
         let mut world = weightless();
         world.gravity = Vector::new(0.0, 0.0, -9.81);
         world.integration_parameters.dt = dt;
@@ -70,7 +73,10 @@ fn step_by_step() {
                 vector(rapier.angvel()),
             );
         }
-        eprintln!("{dt}: {worst_v:e} {worst_w:e} {worst_x:e} {worst_q:e}");
-        assert!(worst_v < 1e-5 && worst_w < 1e-5 && worst_x < 1.0 && worst_q < 1e-3);
+        let worst = (worst_v, worst_w, worst_x, worst_q);
+        assert!(
+            worst_v < 1e-5 && worst_w < 1e-5 && worst_x < 1.0 && worst_q < 1e-4,
+            "{dt}: {worst:?}"
+        );
     }
 }
