@@ -7,10 +7,11 @@
 
 use super::kind::Kind;
 use crate::math::{to_f64, to_quaternion};
-use rapier3d::dynamics::RigidBody;
-use rapier3d::geometry::{ColliderHandle, ContactPair, NarrowPhase};
+use rapier3d::dynamics::{RigidBody, RigidBodySet};
+use rapier3d::geometry::{ColliderHandle, ColliderSet, ContactPair, NarrowPhase};
 use rapier3d::math::{Real, Vector};
 use rapier3d::na::Vector6;
+use rapier3d::parry::query::contact;
 
 /// The contacts of a body as the narrow phase last saw them.
 fn pairs<'a>(
@@ -26,26 +27,72 @@ fn pairs<'a>(
 
 /// The normal of the contacts that the body has or is about to have, weighted by their impulses;
 /// `None` if it touches nothing.
-pub(super) fn normal(body: &RigidBody, narrow_phase: &NarrowPhase) -> Option<Vector> {
+///
+/// The narrow phase makes contact points only in the step of the impact itself, too late to change
+/// the mass. For bodies that drag much fluid along, pairs that could meet in this step are therefore
+/// asked for their normal here.
+pub(super) fn normal(
+    kind: &Kind,
+    body: &RigidBody,
+    narrow_phase: &NarrowPhase,
+    world: Surroundings,
+) -> Option<Vector> {
     let mut sum = Vector::ZERO;
     let mut touching = false;
+    let mut add = |normal: Vector, weight: Real| {
+        // Normals that point opposite ways are the same direction to a mass.
+        let sign = if sum.dot(normal) < 0.0 { -1.0 } else { 1.0 };
+        sum += normal * (sign * weight);
+        touching = true;
+    };
     for (_, pair) in pairs(body, narrow_phase) {
         let Some(contacts) = pair.rigid() else {
             continue;
         };
+        let mut met = false;
         for manifold in contacts.solver_manifolds() {
-            if manifold.data.solver_contacts.is_empty() {
-                continue;
+            if !manifold.data.solver_contacts.is_empty() {
+                let impulse: Real = manifold.points.iter().map(|p| p.data.impulse).sum();
+                add(manifold.data.normal, impulse + 1e-12);
+                met = true;
             }
-            touching = true;
-            let normal = manifold.data.normal;
-            // Normals that point opposite ways are the same direction to a mass.
-            let sign = if sum.dot(normal) < 0.0 { -1.0 } else { 1.0 };
-            let impulse: Real = manifold.points.iter().map(|p| p.data.impulse).sum();
-            sum += normal * (sign * (impulse + 1e-12));
+        }
+        if !met
+            && kind.heavy_fluid
+            && let Some(normal) = world.approach(pair)
+        {
+            add(normal, 1e-12);
         }
     }
     touching.then(|| sum.normalize_or(Vector::Y))
+}
+
+/// What a body is among.
+#[derive(Clone, Copy)]
+pub(super) struct Surroundings<'a> {
+    pub bodies: &'a RigidBodySet,
+    pub colliders: &'a ColliderSet,
+    pub dt: Real,
+}
+
+impl Surroundings<'_> {
+    /// The normal along which the colliders of a pair may meet within the step.
+    fn approach(&self, pair: &ContactPair) -> Option<Vector> {
+        let (a, b) = (
+            self.colliders.get(pair.collider1)?,
+            self.colliders.get(pair.collider2)?,
+        );
+        let [speed_a, speed_b] = [a, b].map(|collider| {
+            let parent = collider.parent().and_then(|handle| self.bodies.get(handle));
+            parent.map_or(0.0, |body| {
+                let reach = body.mass_properties().max_extent();
+                body.linvel().length() + body.angvel().length() * reach
+            })
+        });
+        let reach = (speed_a + speed_b) * self.dt;
+        let contact = contact(a.position(), a.shape(), b.position(), b.shape(), reach);
+        Some(contact.ok()??.normal1)
+    }
 }
 
 /// The scalar mass that the body shows along `normal` (world axes), kg.

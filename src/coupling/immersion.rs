@@ -40,6 +40,8 @@ pub struct Immersion {
     pub integrator: Integrator,
     pub(super) enabled: bool,
     pub(super) time: f64,
+    /// Of the last step, for the read-out.
+    pub(super) gravity: Vector,
     pub(super) descriptions: Vec<ImmersedBody>,
     pub(super) slots: Vec<Option<Slot>>,
     /// Slot of each rapier body index, or `NONE`.
@@ -166,6 +168,7 @@ impl Immersion {
             integrator: Integrator::default(),
             enabled: true,
             time: 0.0,
+            gravity: Vector::ZERO,
             descriptions: Vec::new(),
             slots: Vec::new(),
             lookup: Vec::new(),

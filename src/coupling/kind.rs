@@ -103,6 +103,8 @@ pub(super) struct Kind {
     pub route: Route,
     /// Whether buoyancy has a torque.
     pub buoyancy_turns: bool,
+    /// Whether some motion drags more than half of the body's own mass along.
+    pub heavy_fluid: bool,
     /// Inverse of the 6×6 mass of body and fluid about the center of mass, body axes.
     pub inverse_mass: Matrix6<f64>,
     /// Whether a push at the center of mass turns the body (A₁₂ ≠ 0).
@@ -180,6 +182,7 @@ impl Kind {
             axes: to_rotation(UnitQuaternion::from_rotation_matrix(&constants.axes)),
             route,
             buoyancy_turns: arm.amax() > 1e-7,
+            heavy_fluid: constants.added_mass.linear.symmetric_eigenvalues().max() > 0.5 * dry.mass,
             inverse_mass,
             coupled: coupling > 1e-6 * mass * length,
             constants,

@@ -56,13 +56,9 @@ pub struct ForceBreakdown {
 
 impl Immersion {
     /// The forces on a body in the state that it has now, or `None` if it is not immersed (yet: a
-    /// body enters the fluid with the first step after its insertion).
-    pub fn forces(
-        &self,
-        bodies: &RigidBodySet,
-        gravity: Vector,
-        handle: RigidBodyHandle,
-    ) -> Option<ForceBreakdown> {
+    /// body enters the fluid with the first step after its insertion). Gravity is that of the last
+    /// step.
+    pub fn forces(&self, bodies: &RigidBodySet, handle: RigidBodyHandle) -> Option<ForceBreakdown> {
         let slot = self.slot(handle)?;
         let body = bodies.get(handle)?;
         if slot.kind == NONE || slot.original.is_none() {
@@ -136,7 +132,7 @@ impl Immersion {
                 - resisted.angular,
         );
 
-        let gravity = to_f64(gravity * body.gravity_scale());
+        let gravity = to_f64(self.gravity * body.gravity_scale());
         let buoyancy = gravity * -c.displaced_mass;
         let arm = to_quaternion(*body.rotation()) * c.buoyancy_arm;
         let speed = center.norm();

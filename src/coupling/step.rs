@@ -109,6 +109,7 @@ impl Immersion {
         }
         self.sweep(sets);
         let dt = sets.integration_parameters.dt;
+        self.gravity = sets.gravity;
         let mut scratch = std::mem::take(&mut self.scratch);
         scratch.flyers.iter_mut().for_each(Vec::clear);
         scratch.borrowed.clear();
@@ -316,7 +317,12 @@ impl Immersion {
             return;
         }
         let kind = &self.kinds[slot.kind as usize];
-        let normal = contact::normal(body, sets.narrow_phase);
+        let surroundings = contact::Surroundings {
+            bodies: sets.bodies,
+            colliders: sets.colliders,
+            dt: sets.integration_parameters.dt,
+        };
+        let normal = contact::normal(kind, body, sets.narrow_phase, surroundings);
         let held = is_held(body, handle, sets);
         let wanted = match normal {
             Some(normal) => contact::mass_along(kind, body, normal) as Real,
