@@ -191,8 +191,8 @@ fn report_warnings(warnings: &[Warning]) {
 fn kinds(options: &Options) -> Vec<Kind> {
     let (leaf, paper) = match options.fluid {
         FluidName::Air => (350.0, 800.0),
-        // Soaked leaves sink by 2 cm/s; these are of plastic, for the patience of the viewer.
-        FluidName::Water => (1400.0, 1400.0),
+        // Soaked leaves sink by 1 to 2 cm/s; these are of plastic, for the patience of the viewer.
+        FluidName::Water => (1400.0, 2000.0),
     };
     let leaf = options.density.unwrap_or(leaf);
     let mut kinds = match &options.mesh {
@@ -212,7 +212,7 @@ fn kinds(options: &Options) -> Vec<Kind> {
                     "{size:.3e} m across; this scene is for leaves of 1 mm to 1 m (see --scale)"
                 ));
             }
-            vec![Kind::new(solid, leaf, None).unwrap_or_else(|text| problem(text))]
+            vec![Kind::new(&solid, leaf, None).unwrap_or_else(|text| problem(text))]
         }
         None => {
             let blade = |outline, length, width, camber| Blade {
@@ -245,9 +245,9 @@ fn kinds(options: &Options) -> Vec<Kind> {
 
 fn built_in(blade: &Blade, density: f64) -> Kind {
     let outline = blade.outline.points(blade.length, blade.width, 20);
-    let picture = outline.iter().map(|p| Vec3::new(p[0], 0.0, p[1])).collect();
+    let picture: Vec<Vec3> = outline.iter().map(|p| Vec3::new(p[0], 0.0, p[1])).collect();
     let solid = blade.solid().expect("a blade is a closed solid");
-    Kind::new(solid, density, Some(picture))
+    Kind::new(&solid, density, Some(&picture))
         .unwrap_or_else(|problem| bad_value("--density", problem))
 }
 
@@ -277,7 +277,7 @@ fn build(options: &Options, kinds: &[Kind]) -> Scene {
     let cell = (1.3 * size).max(0.11);
     let (width, lowest, highest) = match options.fluid {
         FluidName::Air => (0.7, 0.9, 2.6),
-        FluidName::Water => (1.2, 0.35, 0.6),
+        FluidName::Water => (1.6, 0.15, 0.4),
     };
     let across = ((width / cell) as u32).max(3);
     let layers = count.div_ceil(across * across).max(1);
@@ -309,7 +309,7 @@ fn build(options: &Options, kinds: &[Kind]) -> Scene {
         } else {
             (leaf_kinds, CONFETTI[random.random_range(0..CONFETTI.len())])
         };
-        // Meshes of users lie in the plane of their longest axes; ours have y up already.
+        // From the frame of the piece, whichever way its normal points, to lying flat.
         let axes = &kinds[kind].body.hydro.planform.axes;
         let normal = axes * Vec3::z();
         let level = Quat::rotation_between(&normal, &Vec3::y()).unwrap_or_else(Quat::identity);

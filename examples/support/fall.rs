@@ -289,11 +289,7 @@ impl Simulator {
     fn forces(&self) -> Option<ForceBreakdown> {
         match self {
             Self::Free(_) => None,
-            Self::Rapier(world) => {
-                world
-                    .immersion
-                    .forces(&world.world.bodies, world.world.gravity, world.body)
-            }
+            Self::Rapier(world) => world.immersion.forces(&world.world.bodies, world.body),
         }
     }
 }

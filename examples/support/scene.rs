@@ -34,8 +34,8 @@ pub struct Kind {
     pub body: Arc<ImmersedBody>,
     /// Mass properties.
     pub dry: DryMass,
-    /// What it collides as, and where in its frame.
-    pub collision: (Pose, SharedShape),
+    /// What it collides as.
+    pub collision: SharedShape,
     /// Its mesh.
     pub solid: Arc<Surface>,
     /// Its outline, for pictures.
@@ -44,11 +44,12 @@ pub struct Kind {
 
 impl Kind {
     /// A kind of thin piece of uniform density (kg/m³), under the default law. `outline` is what
-    /// pictures show of it; without one they show its convex silhouette.
+    /// pictures show of it, in the frame of `solid`; without one they show its convex silhouette.
     ///
     /// # Errors
     /// What the mesh or the density lacks.
-    pub fn new(solid: Surface, density: f64, outline: Option<Vec<Vec3>>) -> Result<Self, String> {
+    pub fn new(solid: &Surface, density: f64, outline: Option<&[Vec3]>) -> Result<Self, String> {
+        let (solid, place, half) = in_box_frame(solid);
         let integrals = solid.volume_integrals();
         let dry = DryMass {
             mass: density * integrals.volume,
@@ -57,13 +58,21 @@ impl Kind {
         };
         dry.check().map_err(|error| error.to_string())?;
         let hydro = HydroProperties::from_surface(&solid, integrals.centroid);
-        let (silhouette, collision) = collision_box(&solid, &hydro);
+        let outline = match outline {
+            Some(outline) => outline.iter().map(place).collect(),
+            None => {
+                let flat = solid.vertices().iter().map(|v| [v.x, v.y]);
+                let hull = convex_outline(flat.collect());
+                hull.iter().map(|p| Vec3::new(p[0], p[1], 0.0)).collect()
+            }
+        };
+        let half = half.map(|x| x as f32);
         Ok(Self {
             body: Arc::new(ImmersedBody::new(hydro)),
             dry,
-            collision,
+            collision: SharedShape::cuboid(half.x, half.y, half.z),
             solid: Arc::new(solid),
-            outline: Arc::new(vec![outline.unwrap_or(silhouette)]),
+            outline: Arc::new(vec![outline]),
         })
     }
 }
@@ -133,9 +142,7 @@ impl Scene {
             ))
             .angvel(to_rapier(&spin))
             .additional_mass_properties(description.dry.to_mass_properties());
-        let (place, shape) = description.collision.clone();
-        let collider = ColliderBuilder::new(shape)
-            .position(place)
+        let collider = ColliderBuilder::new(description.collision.clone())
             .density(0.0)
             .friction(0.6)
             .restitution(0.0);
@@ -225,41 +232,30 @@ fn box_faces(half: Vec3) -> Vec<Vec<Vec3>> {
     faces
 }
 
-/// The convex silhouette of a solid seen along its plate normal, and the box that it collides as, with
-/// its place in the body's frame: as wide as makes its area that of the planform, of the solid's height.
+/// A thin solid in the frame of the box that it collides as (x along it, z its normal), the way from
+/// its own frame to that one, and the half extents of the box: as wide as makes its area that of the
+/// planform, as high as the solid.
 ///
-/// Of hulls with 6 to 10 corners a tenth of the pieces never came to rest, and a step with all pieces
-/// down took ten times as long.
-fn collision_box(solid: &Surface, hydro: &HydroProperties) -> (Vec<Vec3>, (Pose, SharedShape)) {
-    let planform = &hydro.planform;
-    let axes = planform.axes;
-    let plate: Vec<Vec3> = solid
-        .vertices()
-        .iter()
-        .map(|v| axes.inverse() * v)
-        .collect();
-    let low = plate.iter().fold(f64::INFINITY, |m, v| m.min(v.z));
-    let high = plate.iter().fold(f64::NEG_INFINITY, |m, v| m.max(v.z));
-    let mut middle = axes.inverse() * planform.center;
+/// The box sits at the frame's origin, unturned: for a collider that does not, rapier sums up mass
+/// properties (even with a mass of zero), and that sum is wrong for bodies as light as these.
+///
+/// Of hulls with 6 to 10 corners instead of boxes, a tenth of the pieces never came to rest, and a step
+/// with all pieces down took ten times as long.
+fn in_box_frame(solid: &Surface) -> (Surface, impl Fn(&Vec3) -> Vec3 + use<>, Vec3) {
+    let planform = HydroProperties::from_surface(solid, Vec3::zeros()).planform;
+    let to_plate = planform.axes.inverse();
+    let heights = solid.vertices().iter().map(|v| (to_plate * v).z);
+    let low = heights.clone().fold(f64::INFINITY, f64::min);
+    let high = heights.fold(f64::NEG_INFINITY, f64::max);
+    let mut middle = to_plate * planform.center;
     middle.z = 0.5 * (low + high);
-    let hull = convex_outline(plate.iter().map(|v| [v.x, v.y]).collect());
-    let silhouette = hull
-        .iter()
-        .map(|p| axes * Vec3::new(p[0], p[1], middle.z))
-        .collect();
+    let place = move |v: &Vec3| to_plate * v - middle;
 
-    let mut half = planform.half_extents;
-    let share = (planform.area / (4.0 * half.x * half.y)).sqrt();
-    half *= share;
-    half.z = 0.5 * (high - low).max(COLLISION_THICKNESS);
-    let q = Quat::from_rotation_matrix(&axes).coords.map(|x| x as f32);
-    let rotation = Rotation::from_xyzw(q.x, q.y, q.z, q.w);
-    let pose = Pose::from_parts(to_rapier(&(axes * middle)), rotation);
-    let half = half.map(|x| x as f32);
-    (
-        silhouette,
-        (pose, SharedShape::cuboid(half.x, half.y, half.z)),
-    )
+    let extents = planform.half_extents;
+    let share = (planform.area / (4.0 * extents.x * extents.y)).sqrt();
+    let height = (high - low).max(COLLISION_THICKNESS);
+    let half = Vec3::new(extents.x * share, extents.y * share, 0.5 * height);
+    (solid.map(|v| place(&v)), place, half)
 }
 
 /// Convex hull of points in a plane, counter-clockwise (Andrew's monotone chain).

@@ -21,7 +21,7 @@ fn scene() -> Scene {
     };
     scene
         .kinds
-        .push(Kind::new(blade.solid().unwrap(), 350.0, None).unwrap());
+        .push(Kind::new(&blade.solid().unwrap(), 350.0, None).unwrap());
     let below = Pose::from_translation(Vector::new(0.0, -5.0, 0.0));
     scene.add_box(below, [1.0, 0.1, 1.0], [0.5; 3]);
     scene.add_ball(below, 0.5, [0.2; 3]);

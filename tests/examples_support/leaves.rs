@@ -65,7 +65,7 @@ fn a_piece_has_the_mass_of_its_true_shape() {
     for outline in OUTLINES {
         let solid = blade(outline).solid().unwrap();
         let exact = solid.volume_integrals();
-        let kind = Kind::new(solid, 350.0, None).unwrap();
+        let kind = Kind::new(&solid, 350.0, None).unwrap();
         let mut scene = Scene::new(PhysicsWorld::new());
         scene.kinds.push(kind);
         let at = (Vec3::new(0.0, 2.0, 0.0), Quat::identity());

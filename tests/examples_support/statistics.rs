@@ -52,7 +52,7 @@ fn means_are_of_the_second_half() {
 
 #[test]
 fn uniform_tumbling_has_its_exact_rate() {
-    for (rate, seconds) in [(14.8, 4.0), (-3.0, 7.0), (150.0, 1.0), (0.4, 120.0)] {
+    for (rate, seconds) in [(14.8, 4.0), (-3.0, 20.0), (150.0, 1.0), (0.4, 120.0)] {
         for heading in [0.0, 0.7, 2.5] {
             let axis = Vec3::new(f64::cos(heading), 0.0, f64::sin(heading));
             let statistics = turning(seconds, |t| about(axis, rate * t + 0.3));
