@@ -39,7 +39,7 @@ struct Options {
     /// Number of pieces of confetti [default: a third of --leaves]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
     confetti: Option<u32>,
-    /// Simulated time, s [default: 7 in air, 30 in water]
+    /// Simulated time, s [default: 7 in air, 40 in water]
     #[arg(long, value_name = "S", value_parser = cli::positive)]
     seconds: Option<f64>,
     /// Fluid to fall through
@@ -90,7 +90,7 @@ fn main() {
     let options: Options = cli::parse();
     let seconds = options.seconds.unwrap_or(match options.fluid {
         FluidName::Air => 7.0,
-        FluidName::Water => 30.0,
+        FluidName::Water => 40.0,
     });
     let kinds = kinds(&options);
     let mut scene = build(&options, &kinds);
@@ -277,7 +277,7 @@ fn build(options: &Options, kinds: &[Kind]) -> Scene {
     let cell = (1.3 * size).max(0.11);
     let (width, lowest, highest) = match options.fluid {
         FluidName::Air => (0.7, 0.9, 2.6),
-        FluidName::Water => (1.6, 0.15, 0.4),
+        FluidName::Water => (1.4, 0.45, 0.8),
     };
     let across = ((width / cell) as u32).max(3);
     let layers = count.div_ceil(across * across).max(1);
@@ -343,7 +343,7 @@ fn frames_picture(scene: &Scene, recording: &Recording, summary: &Summary) -> St
     let top = scene.pieces.iter().map(|p| p.release.y).fold(1.0, f64::max);
     let from = Vec3::new(0.75, 0.72, 1.9);
     let whole = Camera {
-        eye: from * (0.65 + 0.6 * top),
+        eye: from * (0.65 + 0.6 * top).max(1.7),
         target: Vec3::new(0.05, 0.42 * top, 0.0),
         field_of_view: 0.66,
     };

@@ -64,8 +64,11 @@ fn volumes_of_the_simple_outlines() {
 fn a_piece_has_the_mass_of_its_true_shape() {
     for outline in OUTLINES {
         let solid = blade(outline).solid().unwrap();
-        let exact = solid.volume_integrals();
+        let volume = solid.volume_integrals().volume;
         let kind = Kind::new(&solid, 350.0, None).unwrap();
+        // The same solid in the piece's own frame.
+        let exact = kind.solid.volume_integrals();
+        assert!((exact.volume / volume - 1.0).abs() < 1e-9);
         let mut scene = Scene::new(PhysicsWorld::new());
         scene.kinds.push(kind);
         let at = (Vec3::new(0.0, 2.0, 0.0), Quat::identity());
