@@ -24,14 +24,14 @@ use support::{Vec3, picture};
 /// World axes: y is up. At a release angle of 0 a thin body lies flat, its longest extent along x;
 /// boxes and ellipsoids keep the axes of their --size, y up.
 #[derive(Parser, Debug)]
-#[command(name = "drop", version)]
+#[command(name = "drop", version, allow_negative_numbers = true)]
 struct Options {
-    /// Shape of the body
+    /// Shape of the body; may be left out with --mesh
     #[arg(long, value_enum)]
-    shape: ShapeName,
+    shape: Option<ShapeName>,
     /// Full extents, m. disc: diameter,thickness; sphere: diameter; ellipse: major,minor,thickness;
     /// plate, box and ellipsoid: x,y,z (a plate's thinnest extent is its thickness in any order)
-    #[arg(long, value_name = "A[,B[,C]]", value_parser = cli::lengths)]
+    #[arg(long, value_name = "A[,B[,C]]", value_parser = cli::lengths, allow_hyphen_values = true)]
     size: Option<Lengths>,
     /// OBJ or STL file (metres) for --shape mesh: a closed solid, or an open sheet
     #[arg(long, value_name = "FILE")]
@@ -48,8 +48,7 @@ struct Options {
     #[command(flatten)]
     fluid: FluidArgs,
     /// Tilt at the release, degrees from horizontal, about x: lowers the +z side
-    #[arg(long, value_name = "DEG", default_value = "10", value_parser = cli::finite,
-          allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value = "10", value_parser = cli::finite)]
     release_angle: f64,
     /// Velocity at the release, m/s
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = cli::vector,
@@ -82,7 +81,8 @@ struct Options {
     /// Who integrates: a rapier world (f32), or the crate's own free body (f64)
     #[arg(long, value_enum, default_value = "rapier")]
     integrator: IntegratorName,
-    /// Write t, position, quaternion, velocities and the components of the force on every step
+    /// Write t, position, quaternion, velocities and, from rapier, the components of the force (world
+    /// axes, N and N·m) on every step
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Draw the trajectory, from the side and from above
@@ -95,8 +95,13 @@ struct Options {
 
 fn main() {
     let options: Options = cli::parse();
+    let shape = match (options.shape, &options.mesh) {
+        (Some(shape), _) => shape,
+        (None, Some(_)) => ShapeName::Mesh,
+        (None, None) => bad_value("--shape", "is required, or --mesh FILE"),
+    };
     let specimen = Specimen::new(
-        options.shape,
+        shape,
         options.size.as_ref(),
         options.mesh.as_deref(),
         options.thickness,

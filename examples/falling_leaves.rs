@@ -31,7 +31,7 @@ use support::{Quat, Vec3, glb, mesh};
 
 /// Leaves and confetti fall on a floor with obstacles; the same scene in plain rapier beside it.
 #[derive(Parser, Debug)]
-#[command(name = "falling_leaves", version)]
+#[command(name = "falling_leaves", version, allow_negative_numbers = true)]
 struct Options {
     /// Number of leaves
     #[arg(long, value_name = "N", default_value = "300", value_parser = clap::value_parser!(u32).range(0..=20_000))]
