@@ -5,6 +5,7 @@
 
 pub mod cli;
 pub mod fall;
+pub mod gallery;
 pub mod glb;
 pub mod law;
 pub mod leaf;

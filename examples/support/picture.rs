@@ -73,7 +73,7 @@ fn fitted(panel: &Panel, size: (u32, u32)) -> [(f64, f64); 2] {
         ranges
     });
     for range in &mut ranges {
-        if !(range.0 <= range.1) {
+        if range.0 > range.1 {
             *range = (0.0, 0.0);
         }
     }

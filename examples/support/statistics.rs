@@ -85,7 +85,7 @@ impl Statistics {
         let from = samples.partition_point(|s| s.time < middle - 1e-9 * last.time.abs());
         let half = &samples[from..];
         let duration = last.time - half[0].time;
-        if half.len() < 2 || !(duration > 0.0) {
+        if half.len() < 2 || duration <= 0.0 {
             return Self::default();
         }
         let moved = last.position - half[0].position;
