@@ -213,9 +213,6 @@ fn designs_compared() {
             let errors = steps.map(|rate| error(design, rate));
             println!("{} {design:?}: {errors:?}", case.name);
         }
-        if case.density < 100.0 {
-            assert!(error(Design::RungeKutta, 60.0).is_none());
-        }
         for rate in steps {
             assert!(error(Design::Midpoint(1), rate).is_some(), "{}", case.name);
         }
@@ -224,7 +221,13 @@ fn designs_compared() {
             let ratio = error(design, 60.0).unwrap() / error(design, 960.0).unwrap();
             ratio.log2() / 4.0
         };
-        assert!(order(Design::Midpoint(1)) > 1.5, "{}", case.name);
-        assert!(order(Design::ImplicitEuler) < 1.2, "{}", case.name);
+        // The foam plate accelerates a hundred times its own mass: stiff at every one of these steps,
+        // where the order does not show yet.
+        if case.density < 100.0 {
+            assert!(error(Design::RungeKutta, 60.0).is_none());
+        } else {
+            assert!(order(Design::Midpoint(1)) > 1.5, "{}", case.name);
+            assert!(order(Design::ImplicitEuler) < 1.2, "{}", case.name);
+        }
     }
 }
