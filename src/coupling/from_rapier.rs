@@ -123,8 +123,13 @@ impl DryMass {
 
 /// How far rapier's inertia tensor is from the right one, relative to its largest entry.
 pub(super) fn inertia_error(rapier: &MassProperties, right: &DryMass) -> f64 {
-    let theirs = of_mass_properties(rapier, &Pose::IDENTITY).inertia;
+    let theirs = inertia(rapier);
     (theirs - right.inertia).amax() / right.inertia.amax()
+}
+
+/// The inertia tensor that rapier's mass properties stand for, body axes, kg·m².
+pub(super) fn inertia(rapier: &MassProperties) -> Matrix3<f64> {
+    of_mass_properties(rapier, &Pose::IDENTITY).inertia
 }
 
 fn scaled(mass: &DryMass, to: f64) -> DryMass {

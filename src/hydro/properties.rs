@@ -52,10 +52,14 @@ impl HydroProperties {
     pub fn from_surface(surface: &Surface, reference: Vector3<f64>) -> Self {
         let integrals = surface.volume_integrals();
         let axes = principal_axes(surface, &integrals.second_moment);
+        let planform = Planform::new(surface, &integrals, axes);
+        // Where parts touch or overlap, faces that no fluid sees show too: a shadow is never larger
+        // than that of the box.
+        let [x, y, z]: [f64; 3] = planform.half_extents.into();
+        let boxed = Vector3::new(y * z, z * x, x * y) * 4.0;
         let shadows =
             Vector3::from_fn(|i, _| surface.projected_area(axes.matrix().column(i).into()));
-        let proxy = ellipsoid_with_shadows(shadows);
-        let planform = Planform::new(surface, &integrals, axes);
+        let proxy = ellipsoid_with_shadows(shadows.inf(&boxed));
         let added_mass = proxy
             .added_mass()
             .rotated(&axes)
