@@ -16,6 +16,26 @@ pub enum Error {
         /// The value that was given.
         value: f64,
     },
+    /// A list has the wrong number of entries.
+    #[error("{what}: {actual} given where {expected} are needed")]
+    WrongLength {
+        /// Which list.
+        what: &'static str,
+        /// How many entries it must have (the least, where more are allowed).
+        expected: usize,
+        /// How many it has.
+        actual: usize,
+    },
+    /// An entry of a list is not a finite number.
+    #[error("{what}: entry {index} is {value}")]
+    NotFinite {
+        /// Which list.
+        what: &'static str,
+        /// Position of the entry, from 0.
+        index: usize,
+        /// The entry.
+        value: f64,
+    },
 }
 
 impl Error {
@@ -29,6 +49,27 @@ impl Error {
                 requirement: "positive and finite",
                 value,
             })
+        }
+    }
+
+    /// An error if the list has a length other than `expected`.
+    pub(crate) fn check_length(what: &'static str, expected: usize, actual: usize) -> Result<(), Self> {
+        if expected == actual {
+            Ok(())
+        } else {
+            Err(Self::WrongLength { what, expected, actual })
+        }
+    }
+
+    /// An error that names the first entry that is not finite.
+    pub(crate) fn check_finite(what: &'static str, values: &[f64]) -> Result<(), Self> {
+        match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(index) => Err(Self::NotFinite {
+                what,
+                index,
+                value: values[index],
+            }),
         }
     }
 }

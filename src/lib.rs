@@ -5,6 +5,7 @@
 pub mod error;
 pub mod flow;
 pub mod fluid;
+pub mod reduced;
 
 pub use error::Error;
 pub use fluid::Fluid;
