@@ -1,0 +1,3 @@
+//! Laws of the reduced models.
+
+mod anchors;
