@@ -7,3 +7,5 @@ pub mod operator;
 pub mod pgd;
 pub mod dormand_prince;
 pub mod quadratic;
+pub mod evolution;
+pub mod separated;

@@ -1,3 +1,4 @@
 //! Laws of the reduced models.
 
 mod anchors;
+mod thesis;
