@@ -2,10 +2,15 @@
 
 pub mod axis;
 pub mod canonical;
+pub mod cross;
+pub mod dormand_prince;
+pub mod evolution;
+pub mod example_systems;
+#[cfg(feature = "serde-serialize")]
+mod file;
 mod legendre;
 pub mod operator;
 pub mod pgd;
-pub mod dormand_prince;
 pub mod quadratic;
-pub mod evolution;
 pub mod separated;
+pub mod tensor_train;
