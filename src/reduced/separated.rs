@@ -110,45 +110,52 @@ impl Separated {
 
     /// All values on the grid that is the product of `coordinates`, a list per axis.
     ///
-    /// The first axis and the component run fastest: value (c, i₀, i₁, …) is entry
-    /// `(… (i₁) · n₀ + i₀) · components + c` with i₁ the next fastest. Each factor is interpolated
-    /// once per coordinate, not once per point: this is where a separated representation beats
-    /// solving for every point (thesis Fig. 6.7b).
+    /// The first axis runs fastest and the component slowest: value (c, i₀, i₁, …) is entry
+    /// `i₀ + n₀ (i₁ + n₁ (i₂ + … c))`. Each factor is interpolated once per coordinate, not once
+    /// per point, and one matrix product does the rest: this is where a separated representation
+    /// beats solving for every point (thesis Fig. 6.7b).
     ///
     /// # Panics
     /// If there is not one list per axis.
     pub fn grid(&self, coordinates: &[&[f64]]) -> Vec<f64> {
         assert_eq!(coordinates.len(), self.axes.len(), "one list of coordinates per axis");
-        let modes = self.modes();
-        let interpolated = |axis: usize, component: usize| -> DMatrix<f64> {
-            let n = self.axes[axis].len();
-            let start = component * n * modes;
-            let values = DMatrix::from_row_slice(n, modes, &self.factors[axis][start..start + n * modes]);
-            self.axes[axis].interpolation_matrix(coordinates[axis]) * values
-        };
-        // Column per point of the later axes, row per mode.
-        let mut products = DMatrix::from_column_slice(modes, 1, &self.weights);
-        for axis in 1..self.axes.len() {
-            let factor = interpolated(axis, 0).transpose();
-            let mut next = DMatrix::zeros(modes, products.ncols() * factor.ncols());
-            let mut column = 0;
-            for one in factor.column_iter() {
-                for product in products.column_iter() {
-                    next.column_mut(column).zip_zip_apply(&one, &product, |n, a, b| *n = a * b);
-                    column += 1;
-                }
-            }
-            products = next;
+        let all: usize = coordinates.iter().map(|list| list.len()).product();
+        // Axes before `split` index the rows of the product, the others its columns.
+        let mut split = 1;
+        let mut rows = coordinates[0].len();
+        while split < self.axes.len() && rows * rows < all {
+            rows *= coordinates[split].len();
+            split += 1;
         }
-        let times = coordinates[0].len();
-        let mut first = DMatrix::zeros(times * self.components, modes);
+        let later: Vec<DMatrix<f64>> = (1..self.axes.len())
+            .map(|axis| self.interpolated(axis, 0, coordinates[axis]))
+            .collect();
+        let mut values = Vec::with_capacity(all * self.components);
         for component in 0..self.components {
-            let values = interpolated(0, component);
-            for time in 0..times {
-                first.row_mut(time * self.components + component).copy_from(&values.row(time));
+            let mut first = self.interpolated(0, component, coordinates[0]);
+            for (mut column, weight) in first.column_iter_mut().zip(&self.weights) {
+                column *= *weight;
             }
+            // Modes of other components (decoupled systems) vanish here.
+            let modes: Vec<usize> = (0..self.modes()).filter(|m| first.column(*m).amax() > 0.0).collect();
+            let left = later[..split - 1].iter().fold(first.select_columns(&modes), |product, factor| {
+                row_products(&product, factor, &modes)
+            });
+            let ones = DMatrix::repeat(1, modes.len(), 1.0);
+            let right = later[split - 1..].iter().fold(ones, |product, factor| {
+                row_products(&product, factor, &modes)
+            });
+            values.extend_from_slice((left * right.transpose()).as_slice());
         }
-        (first * products).as_slice().to_vec()
+        values
+    }
+
+    /// The factors of an axis at `points`: a row per point, a column per mode.
+    fn interpolated(&self, axis: usize, component: usize, points: &[f64]) -> DMatrix<f64> {
+        let (n, modes) = (self.axes[axis].len(), self.modes());
+        let start = component * n * modes;
+        let values = DMatrix::from_row_slice(n, modes, &self.factors[axis][start..start + n * modes]);
+        self.axes[axis].interpolation_matrix(points) * values
     }
 
     /// The same function on other axes: its factors interpolated there. On meshes of low degree a
@@ -160,14 +167,12 @@ impl Separated {
         Error::check_length("axes to resample on", self.axes.len(), axes.len())?;
         let modes = self.modes();
         let mut factors = Vec::new();
-        for (j, (old, new)) in self.axes.iter().zip(&axes).enumerate() {
-            let matrix = old.interpolation_matrix(new.nodes());
+        for (j, new) in axes.iter().enumerate() {
             let blocks = if j == 0 { self.components } else { 1 };
             let mut factor = Vec::with_capacity(blocks * new.len() * modes);
             for block in 0..blocks {
-                let start = block * old.len() * modes;
-                let values = DMatrix::from_row_slice(old.len(), modes, &self.factors[j][start..start + old.len() * modes]);
-                factor.extend_from_slice((&matrix * values).transpose().as_slice());
+                let values = self.interpolated(j, block, new.nodes());
+                factor.extend_from_slice(values.transpose().as_slice());
             }
             factors.push(factor);
         }
@@ -192,6 +197,20 @@ impl Separated {
         };
         self.axes.iter().enumerate().map(metric).collect()
     }
+}
+
+/// All products of a row of `product` with a row of `factor` (its columns `modes`), the rows of
+/// `product` running faster.
+fn row_products(product: &DMatrix<f64>, factor: &DMatrix<f64>, modes: &[usize]) -> DMatrix<f64> {
+    let n = product.nrows();
+    let mut result = DMatrix::zeros(n * factor.nrows(), modes.len());
+    for (column, mode) in modes.iter().enumerate() {
+        let mut target = result.column_mut(column);
+        for (row, value) in factor.column(*mode).iter().enumerate() {
+            target.rows_mut(row * n, n).copy_from(&(product.column(column) * *value));
+        }
+    }
+    result
 }
 
 /// Evaluates a [`Separated`] point by point; holds the scratch memory.
@@ -284,14 +303,14 @@ mod tests {
                     // Interpolation of the sine by sextic elements of length 2/3: about 1e-8.
                     assert!((value[0] - t.sin() * rest).abs() < 1e-6);
                     assert!((value[1] - t.cos() * rest).abs() < 1e-6);
-                    for c in value {
-                        assert!((grid[entry] - c).abs() < 1e-13);
-                        entry += 1;
+                    for (component, c) in value.iter().enumerate() {
+                        assert!((grid[component * 24 + entry] - c).abs() < 1e-13);
                     }
+                    entry += 1;
                 }
             }
         }
-        assert_eq!(entry, grid.len());
+        assert_eq!(2 * entry, grid.len());
         assert!((separated.factor(0, 0, 1, 0.4) - 0.4_f64.cos()).abs() < 1e-7);
     }
 
