@@ -1,4 +1,5 @@
 //! Laws of the reduced models.
 
 mod anchors;
+mod surrogate;
 mod thesis;
