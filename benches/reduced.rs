@@ -34,13 +34,16 @@ fn one_point(criterion: &mut Criterion) {
         let mut evaluator = separated.evaluator();
         let mut next = 0;
         let mut value = [0.0];
-        criterion.bench_function(&format!("one point, 15 modes, 6 dimensions, degree {degree}"), |b| {
-            b.iter(|| {
-                next = (next + 1) % points.len();
-                evaluator.evaluate(black_box(&points[next]), &mut value);
-                value[0]
-            })
-        });
+        criterion.bench_function(
+            &format!("one point, 15 modes, 6 dimensions, degree {degree}"),
+            |b| {
+                b.iter(|| {
+                    next = (next + 1) % points.len();
+                    evaluator.evaluate(black_box(&points[next]), &mut value);
+                    value[0]
+                })
+            },
+        );
     }
 }
 
@@ -58,7 +61,11 @@ fn grid_of_initial_values(criterion: &mut Criterion) {
     let system = coupled_triple(&Axis::spectral(0.0, 1.0, 9).unwrap());
     let time = Axis::time(0.0, 0.5, 3, 4).unwrap();
     let params = EvolutionParams {
-        pgd: PgdParams { max_modes: 12, tolerance: 1e-7, ..PgdParams::default() },
+        pgd: PgdParams {
+            max_modes: 12,
+            tolerance: 1e-7,
+            ..PgdParams::default()
+        },
         coupling: Coupling::Decoupled,
         ..EvolutionParams::default()
     };

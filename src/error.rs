@@ -85,11 +85,19 @@ impl Error {
     }
 
     /// An error if the list has a length other than `expected`.
-    pub(crate) fn check_length(what: &'static str, expected: usize, actual: usize) -> Result<(), Self> {
+    pub(crate) fn check_length(
+        what: &'static str,
+        expected: usize,
+        actual: usize,
+    ) -> Result<(), Self> {
         if expected == actual {
             Ok(())
         } else {
-            Err(Self::WrongLength { what, expected, actual })
+            Err(Self::WrongLength {
+                what,
+                expected,
+                actual,
+            })
         }
     }
 

@@ -9,7 +9,10 @@ pub const MAX_DEGREE: usize = 63;
 
 /// Which points carry the unknowns inside an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub enum Family {
     /// Gauss–Lobatto points: for space, parameters and initial values. Degree 1 gives the linear
     /// finite elements of thesis §6.2.3, one element of high degree a spectral basis.
@@ -32,7 +35,10 @@ pub enum Quadrature {
 
 /// What is stored of an axis; the rest follows.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 struct Mesh {
     family: Family,
     degree: usize,
@@ -48,7 +54,10 @@ struct Mesh {
 /// their values at [`Axis::nodes`]. An end where every function vanishes carries no node: see
 /// [`Axis::with_zero_start`].
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 #[cfg_attr(feature = "serde-serialize", serde(try_from = "Mesh", into = "Mesh"))]
 pub struct Axis {
     mesh: Mesh,
@@ -177,7 +186,10 @@ impl Axis {
         let barycentric = (0..reference.len())
             .map(|i| {
                 let others = (0..reference.len()).filter(|j| *j != i);
-                others.map(|j| reference[i] - reference[j]).product::<f64>().recip()
+                others
+                    .map(|j| reference[i] - reference[j])
+                    .product::<f64>()
+                    .recip()
             })
             .collect();
         let elements = mesh.breaks.len() - 1;
@@ -188,7 +200,11 @@ impl Axis {
             *weights.last_mut().expect("starts with one") += half * reference_weights[0];
             for i in 1..reference.len() {
                 let end = i + 1 == reference.len();
-                nodes.push(if end { element[1] } else { element[0] + half * (1.0 + reference[i]) });
+                nodes.push(if end {
+                    element[1]
+                } else {
+                    element[0] + half * (1.0 + reference[i])
+                });
                 weights.push(half * reference_weights[i]);
             }
         }
@@ -345,7 +361,11 @@ impl Axis {
 
     /// Visits every quadrature point: its coordinate, its weight, the nodes around it (`None`
     /// where the function vanishes) and there the values and slopes of the basis functions.
-    fn visit(&self, rule: Quadrature, mut visit: impl FnMut(f64, f64, &[Option<usize>], &[f64], &[f64])) {
+    fn visit(
+        &self,
+        rule: Quadrature,
+        mut visit: impl FnMut(f64, f64, &[Option<usize>], &[f64], &[f64]),
+    ) {
         let rule = match rule {
             Quadrature::Nodal => Rule {
                 nodes: self.reference.clone(),
@@ -437,12 +457,16 @@ impl Axis {
         let nodes = &self.reference[1..];
         let lagrange = |j: usize, x: f64| -> f64 {
             let others = (0..stages).filter(|k| *k != j);
-            others.map(|k| (x - nodes[k]) / (nodes[j] - nodes[k])).product()
+            others
+                .map(|k| (x - nodes[k]) / (nodes[j] - nodes[k]))
+                .product()
         };
         let butcher = DMatrix::from_fn(stages, stages, |i, j| {
             let half = 0.5 * (nodes[i] + 1.0);
             let points = gauss.nodes.iter().zip(&gauss.weights);
-            half * points.map(|(x, w)| w * lagrange(j, -1.0 + half * (1.0 + x))).sum::<f64>()
+            half * points
+                .map(|(x, w)| w * lagrange(j, -1.0 + half * (1.0 + x)))
+                .sum::<f64>()
         });
         let mut integral = DMatrix::zeros(self.len(), self.len());
         for (element, ends) in self.mesh.breaks.windows(2).enumerate() {
@@ -486,12 +510,19 @@ mod tests {
         for family in [Family::Lobatto, Family::Radau] {
             for degree in [1, 2, 5, 12] {
                 let axis = Axis::new(family, vec![-1.0, 0.5, 0.9, 3.0], degree).unwrap();
-                let f = |x: f64| (0..=degree).map(|k| (k as f64 - 1.7) * (x / 3.0).powi(k as i32)).sum::<f64>();
+                let f = |x: f64| {
+                    (0..=degree)
+                        .map(|k| (k as f64 - 1.7) * (x / 3.0).powi(k as i32))
+                        .sum::<f64>()
+                };
                 let values = axis.sample(f);
                 for i in 0..=40 {
                     let x = -1.0 + i as f64 * 0.1;
                     let error = (axis.interpolate(values.as_slice(), x) - f(x)).abs();
-                    assert!(error < 1e-11, "{family:?}, degree {degree}, x = {x}: {error:e}");
+                    assert!(
+                        error < 1e-11,
+                        "{family:?}, degree {degree}, x = {x}: {error:e}"
+                    );
                 }
             }
         }
@@ -499,7 +530,10 @@ mod tests {
 
     #[test]
     fn ends_without_a_node_vanish() {
-        let axis = Axis::elements(0.0, 1.0, 4, 3).unwrap().with_zero_start().with_zero_end();
+        let axis = Axis::elements(0.0, 1.0, 4, 3)
+            .unwrap()
+            .with_zero_start()
+            .with_zero_end();
         assert_eq!(axis.len(), 4 * 3 + 1 - 2);
         let f = |x: f64| x * (1.0 - x);
         let values = axis.sample(f);
@@ -540,7 +574,8 @@ mod tests {
         assert!((integral[(1, 0)] - (296.0 + 169.0 * root) / 1800.0).abs() < 1e-14);
         assert!((integral[(2, 2)] - 1.0 / 9.0).abs() < 1e-14);
         let axis = Axis::time(1.0, 3.0, 4, 3).unwrap();
-        let error = axis.integral().unwrap() * axis.sample(|t| t * t) - axis.sample(|t| (t.powi(3) - 1.0) / 3.0);
+        let error = axis.integral().unwrap() * axis.sample(|t| t * t)
+            - axis.sample(|t| (t.powi(3) - 1.0) / 3.0);
         assert!(error.amax() < 1e-13);
     }
 

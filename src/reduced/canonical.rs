@@ -114,8 +114,13 @@ impl Canonical {
             product
         });
         let factors = factors.collect();
-        let weights = pairs.iter().map(|(i, j)| self.weights[*i] * other.weights[*j]);
-        Self { weights: weights.collect(), factors }
+        let weights = pairs
+            .iter()
+            .map(|(i, j)| self.weights[*i] * other.weights[*j]);
+        Self {
+            weights: weights.collect(),
+            factors,
+        }
     }
 
     /// Every term multiplied by one vector per dimension, and by `scale`.
@@ -193,7 +198,9 @@ impl Canonical {
                 }
             }
         }
-        let kept: Vec<usize> = (0..self.rank()).filter(|i| self.weights[*i] != 0.0).collect();
+        let kept: Vec<usize> = (0..self.rank())
+            .filter(|i| self.weights[*i] != 0.0)
+            .collect();
         if kept.len() < self.rank() {
             self.weights = kept.iter().map(|i| self.weights[*i]).collect();
             for factor in &mut self.factors {
@@ -230,9 +237,16 @@ mod tests {
         let mut tensor = Canonical::zeros(&[3, 2, 4]);
         for k in 0..3 {
             let factor = |n: usize, s: f64| DVector::from_fn(n, |i, _| ((i + k) as f64 * s).sin());
-            tensor.push(1.0 + k as f64, &[factor(3, 1.0), factor(2, 2.0), factor(4, 0.7)]).unwrap();
+            tensor
+                .push(
+                    1.0 + k as f64,
+                    &[factor(3, 1.0), factor(2, 2.0), factor(4, 0.7)],
+                )
+                .unwrap();
         }
-        let metric = [3, 2, 4].map(|n| DVector::from_fn(n, |i, _| 0.5 + i as f64)).to_vec();
+        let metric = [3, 2, 4]
+            .map(|n| DVector::from_fn(n, |i, _| 0.5 + i as f64))
+            .to_vec();
         (tensor, metric)
     }
 
@@ -244,7 +258,8 @@ mod tests {
         for i in 0..3 {
             for j in 0..2 {
                 for k in 0..4 {
-                    sum += metric[0][i] * metric[1][j] * metric[2][k] * tensor.at(&[i, j, k]).powi(2);
+                    sum +=
+                        metric[0][i] * metric[1][j] * metric[2][k] * tensor.at(&[i, j, k]).powi(2);
                 }
             }
         }
@@ -269,7 +284,11 @@ mod tests {
     fn shapes_are_checked() {
         let mut tensor = Canonical::zeros(&[2, 3]);
         assert!(tensor.push(1.0, &[DVector::zeros(2)]).is_err());
-        assert!(tensor.push(1.0, &[DVector::zeros(3), DVector::zeros(2)]).is_err());
+        assert!(
+            tensor
+                .push(1.0, &[DVector::zeros(3), DVector::zeros(2)])
+                .is_err()
+        );
         assert_eq!(tensor.rank(), 0);
         assert_eq!(tensor.norm(&[DVector::zeros(2), DVector::zeros(3)]), 0.0);
     }

@@ -72,7 +72,11 @@ impl<F: FnMut(&[f64], &mut [f64])> Sampler<'_, F> {
         if let Some(values) = self.known.get(node) {
             return values[output];
         }
-        let coordinates = self.axes.iter().zip(node).map(|(axis, i)| axis.nodes()[usize::from(*i)]);
+        let coordinates = self
+            .axes
+            .iter()
+            .zip(node)
+            .map(|(axis, i)| axis.nodes()[usize::from(*i)]);
         let point: Vec<f64> = coordinates.collect();
         let mut values = vec![0.0; self.outputs];
         (self.function)(&point, &mut values);
@@ -112,20 +116,43 @@ pub fn cross(
             });
         }
     }
-    let mut sampler = Sampler { axes: &axes, outputs, function, known: HashMap::new(), bad: None };
+    let mut sampler = Sampler {
+        axes: &axes,
+        outputs,
+        function,
+        known: HashMap::new(),
+        bad: None,
+    };
     let mut random = Pcg64::seed_from_u64(params.seed);
     let mut random_index = |from: usize, to: usize| -> Vec<u16> {
-        sizes[from..to].iter().map(|n| random.random_range(0..*n) as u16).collect()
+        sizes[from..to]
+            .iter()
+            .map(|n| random.random_range(0..*n) as u16)
+            .collect()
     };
     let d = sizes.len();
-    let checks: Vec<Vec<u16>> = (0..params.check_points).map(|_| random_index(0, d)).collect();
+    let checks: Vec<Vec<u16>> = (0..params.check_points)
+        .map(|_| random_index(0, d))
+        .collect();
     // left[k]: indices of the dimensions before k; right[k]: of those from k on.
     let mut left: Vec<Vec<Vec<u16>>> = vec![vec![vec![]]; d + 1];
     let mut right: Vec<Vec<Vec<u16>>> = (0..=d)
-        .map(|k| if k == d { vec![vec![]] } else { (0..2).map(|_| random_index(k, d)).collect() })
+        .map(|k| {
+            if k == d {
+                vec![vec![]]
+            } else {
+                (0..2).map(|_| random_index(k, d)).collect()
+            }
+        })
         .collect();
-    right.iter_mut().for_each(|set| { set.dedup(); });
-    let mut report = CrossReport { evaluations: 0, errors: Vec::new(), converged: false };
+    right.iter_mut().for_each(|set| {
+        set.dedup();
+    });
+    let mut report = CrossReport {
+        evaluations: 0,
+        errors: Vec::new(),
+        converged: false,
+    };
     let mut train = None;
     for _ in 0..params.max_sweeps {
         let mut cores = Vec::with_capacity(d);
@@ -140,14 +167,18 @@ pub fn cross(
                 cores.push(Core::from_unfolding(&unfolding, l.len()));
             } else {
                 let (rows, weights) = skeleton(&unfolding, params);
-                let chosen = rows.iter().map(|row| {
-                    [&l[row % l.len()][..], &[(row / l.len()) as u16]].concat()
-                });
+                let chosen = rows
+                    .iter()
+                    .map(|row| [&l[row % l.len()][..], &[(row / l.len()) as u16]].concat());
                 left[k + 1] = chosen.collect();
                 cores.push(Core::from_unfolding(&weights, l.len()));
             }
         }
-        let candidate = TensorTrain { axes: axes.clone(), outputs, cores };
+        let candidate = TensorTrain {
+            axes: axes.clone(),
+            outputs,
+            cores,
+        };
         let error = error_at(&candidate, &checks, &mut sampler);
         report.errors.push(error);
         report.converged = error <= params.tolerance;
@@ -163,15 +194,19 @@ pub fn cross(
                 sampler.at(&index)
             });
             let (rows, _) = skeleton(&unfolding, params);
-            let chosen = rows.iter().map(|row| {
-                [&[(row / r.len()) as u16], &r[row % r.len()][..]].concat()
-            });
+            let chosen = rows
+                .iter()
+                .map(|row| [&[(row / r.len()) as u16], &r[row % r.len()][..]].concat());
             right[k] = chosen.collect();
         }
     }
     report.evaluations = sampler.known.len();
     if let Some(value) = sampler.bad {
-        return Err(Error::NotFinite { what: "sample of the function", index: 0, value });
+        return Err(Error::NotFinite {
+            what: "sample of the function",
+            index: 0,
+            value,
+        });
     }
     let train = train.expect("at least one sweep");
     train.check()?;
@@ -190,14 +225,21 @@ fn error_at<F: FnMut(&[f64], &mut [f64])>(
         for (core, node) in train.cores.iter().zip(index) {
             let size = core.left * core.right;
             let start = usize::from(*node) * size;
-            let matrix = DMatrix::from_row_slice(core.left, core.right, &core.entries[start..start + size]);
-            row = (matrix.transpose() * rapier3d::na::DVector::from_vec(row)).as_slice().to_vec();
+            let matrix =
+                DMatrix::from_row_slice(core.left, core.right, &core.entries[start..start + size]);
+            row = (matrix.transpose() * rapier3d::na::DVector::from_vec(row))
+                .as_slice()
+                .to_vec();
         }
         let exact = sampler.at(index);
         squares += (row[0] - exact).powi(2);
         norm += exact * exact;
     }
-    if norm == 0.0 { squares.sqrt() } else { (squares / norm).sqrt() }
+    if norm == 0.0 {
+        squares.sqrt()
+    } else {
+        (squares / norm).sqrt()
+    }
 }
 
 /// Rows of the matrix that span it well, and the weights W with `matrix ≈ W · matrix[rows]`.
@@ -233,7 +275,10 @@ fn skeleton(matrix: &DMatrix<f64>, params: &CrossParams) -> (Vec<usize>, DMatrix
         weights = q.clone() * inverse(&q.select_rows(&rows));
     }
     // Further rows where the weights are longest.
-    let limit = params.max_rank.min(rows.len() + params.rank_growth).min(matrix.nrows());
+    let limit = params
+        .max_rank
+        .min(rows.len() + params.rank_growth)
+        .min(matrix.nrows());
     while rows.len() < limit {
         let lengths = (0..weights.nrows()).map(|i| (i, weights.row(i).norm_squared()));
         let free = lengths.filter(|(i, _)| !rows.contains(i));
@@ -257,7 +302,11 @@ fn pivots(q: &DMatrix<f64>) -> Vec<usize> {
     let mut rows = Vec::new();
     for column in 0..q.ncols() {
         let free = (0..q.nrows()).filter(|i| !rows.contains(i));
-        let best = free.max_by(|a, b| rest[(*a, column)].abs().total_cmp(&rest[(*b, column)].abs()));
+        let best = free.max_by(|a, b| {
+            rest[(*a, column)]
+                .abs()
+                .total_cmp(&rest[(*b, column)].abs())
+        });
         let Some(row) = best else { break };
         rows.push(row);
         let pivot = rest[(row, column)];
@@ -275,7 +324,8 @@ fn inverse(square: &DMatrix<f64>) -> DMatrix<f64> {
     let n = square.nrows();
     square.clone().try_inverse().unwrap_or_else(|| {
         let svd = square.clone().svd(true, true);
-        svd.pseudo_inverse(1e-14).unwrap_or_else(|_| DMatrix::identity(n, n))
+        svd.pseudo_inverse(1e-14)
+            .unwrap_or_else(|_| DMatrix::identity(n, n))
     })
 }
 
@@ -292,7 +342,10 @@ mod tests {
             [1.0 / (1.0 + sum), (sum + x[0] * x[5]).sin()]
         };
         let function = |x: &[f64], out: &mut [f64]| out.copy_from_slice(&exact(x));
-        let params = CrossParams { tolerance: 1e-8, ..CrossParams::default() };
+        let params = CrossParams {
+            tolerance: 1e-8,
+            ..CrossParams::default()
+        };
         let (train, report) = cross(axes, 2, function, &params).unwrap();
         assert!(report.converged, "{report:?}");
         // Far fewer samples than the 9⁶ = 531 441 of the grid.
@@ -317,10 +370,16 @@ mod tests {
         let axes = vec![Axis::spectral(-1.0, 1.0, 6).unwrap(); 3];
         let learn = |f: fn(&[f64]) -> f64| {
             let function = |x: &[f64], out: &mut [f64]| out[0] = f(x);
-            cross(axes.clone(), 1, function, &CrossParams::default()).unwrap().0.rounded(1e-10)
+            cross(axes.clone(), 1, function, &CrossParams::default())
+                .unwrap()
+                .0
+                .rounded(1e-10)
         };
         assert_eq!(learn(|x| x.iter().sum()).ranks(), [2, 2, 1]);
-        assert_eq!(learn(|x| x.iter().product::<f64>() + 0.0).ranks(), [1, 1, 1]);
+        assert_eq!(
+            learn(|x| x.iter().product::<f64>() + 0.0).ranks(),
+            [1, 1, 1]
+        );
         assert_eq!(learn(|_| 0.0).evaluate(&[0.3, 0.2, 0.1]), [0.0]);
     }
 
@@ -332,6 +391,9 @@ mod tests {
         assert!(cross(vec![], 1, zero, &params).is_err());
         assert!(cross(axes.clone(), 0, zero, &params).is_err());
         let nan = |x: &[f64], out: &mut [f64]| out[0] = if x[0] > 0.5 { f64::NAN } else { 1.0 };
-        assert!(matches!(cross(axes, 1, nan, &params), Err(Error::NotFinite { .. })));
+        assert!(matches!(
+            cross(axes, 1, nan, &params),
+            Err(Error::NotFinite { .. })
+        ));
     }
 }

@@ -92,7 +92,9 @@ pub fn integrate(
         }
         for stage in 1..7 {
             for i in 0..n {
-                let sum: f64 = (0..stage).map(|k| STAGES[stage - 1][k] * slopes[k][i]).sum();
+                let sum: f64 = (0..stage)
+                    .map(|k| STAGES[stage - 1][k] * slopes[k][i])
+                    .sum();
                 trial[i] = state[i] + h * sum;
             }
             rate(t + NODES[stage] * h, &trial, &mut slopes[stage]);
@@ -102,7 +104,11 @@ pub fn integrate(
             let difference: f64 = (0..7).map(|k| ERROR[k] * slopes[k][i]).sum();
             let size = accuracy.absolute + accuracy.relative * state[i].abs().max(trial[i].abs());
             let scaled = (h * difference / size).abs();
-            error = if scaled.is_nan() { f64::INFINITY } else { error.max(scaled) };
+            error = if scaled.is_nan() {
+                f64::INFINITY
+            } else {
+                error.max(scaled)
+            };
         }
         if error <= 1.0 {
             t = if last { end } else { t + h };
@@ -127,7 +133,11 @@ mod tests {
             let cube = (x[0] * x[0] + x[1] * x[1]).powf(1.5);
             out.copy_from_slice(&[x[2], x[3], -x[0] / cube, -x[1] / cube]);
         };
-        let accuracy = Accuracy { relative: 1e-12, absolute: 1e-12, ..Accuracy::default() };
+        let accuracy = Accuracy {
+            relative: 1e-12,
+            absolute: 1e-12,
+            ..Accuracy::default()
+        };
         let end = 2.0 * std::f64::consts::PI;
         assert_eq!(integrate(rate, 0.0, end, &mut state, accuracy), end);
         for (a, b) in state.iter().zip(start) {
@@ -139,9 +149,21 @@ mod tests {
     #[test]
     fn it_stops_at_a_singularity() {
         let mut state = [1.0];
-        let reached = integrate(|_, x, out| out[0] = x[0] * x[0], 0.0, 2.0, &mut state, Accuracy::default());
+        let reached = integrate(
+            |_, x, out| out[0] = x[0] * x[0],
+            0.0,
+            2.0,
+            &mut state,
+            Accuracy::default(),
+        );
         assert!((reached - 1.0).abs() < 1e-4, "{reached}");
-        let reached = integrate(|_, _, out| out[0] = f64::NAN, 0.0, 2.0, &mut state, Accuracy::default());
+        let reached = integrate(
+            |_, _, out| out[0] = f64::NAN,
+            0.0,
+            2.0,
+            &mut state,
+            Accuracy::default(),
+        );
         assert_eq!(reached, 0.0);
     }
 }

@@ -112,7 +112,14 @@ pub fn evolve(
             let operator = problem.operator(g);
             let residual = problem.residual(g);
             let metric = problem.metric_of(g);
-            let mode = enrich(&operator, &residual, &metric, &causal, &params.pgd, &mut random);
+            let mode = enrich(
+                &operator,
+                &residual,
+                &metric,
+                &causal,
+                &params.pgd,
+                &mut random,
+            );
             let mut increment = problem.groups[g].increment.plus(1.0, &mode);
             project(&operator, &problem.source(g), &mut increment);
             problem.groups[g].increment = increment;
@@ -121,7 +128,13 @@ pub fn evolve(
             for g in 0..problem.groups.len() {
                 let (operator, source) = (problem.operator(g), problem.source(g));
                 let metric = problem.metric_of(g);
-                update(&operator, &source, &metric, &causal, &mut problem.groups[g].increment);
+                update(
+                    &operator,
+                    &source,
+                    &metric,
+                    &causal,
+                    &mut problem.groups[g].increment,
+                );
             }
         }
         let size = problem.relative_residual(params.residual_points, params.pgd.seed);
@@ -135,7 +148,8 @@ pub fn evolve(
         }
     }
     let last = report.residuals.last();
-    report.converged = report.singularity.is_none() && last.is_some_and(|r| *r <= params.pgd.tolerance);
+    report.converged =
+        report.singularity.is_none() && last.is_some_and(|r| *r <= params.pgd.tolerance);
     report.modes = problem.groups.iter().map(|g| g.increment.rank()).sum();
     Ok((problem.solution()?, report))
 }
@@ -151,7 +165,10 @@ impl<'a> Problem<'a> {
             });
         }
         let weights = |axis: &Axis| DVector::from_column_slice(axis.weights());
-        let metric: Vec<_> = std::iter::once(time).chain(&system.parameters).map(weights).collect();
+        let metric: Vec<_> = std::iter::once(time)
+            .chain(&system.parameters)
+            .map(weights)
+            .collect();
         let components = 0..system.components;
         let partition: Vec<Vec<usize>> = match coupling {
             Coupling::Monolithic => vec![components.clone().collect()],
@@ -160,14 +177,19 @@ impl<'a> Problem<'a> {
         let group = |members: Vec<usize>| {
             let mut shape: Vec<usize> = metric.iter().map(DVector::len).collect();
             shape[0] *= members.len();
-            Group { members, increment: Canonical::zeros(&shape) }
+            Group {
+                members,
+                increment: Canonical::zeros(&shape),
+            }
         };
         Ok(Self {
             system,
             time,
             tested_integral: Arc::new(scale_rows(&integral, &metric[0])),
             integral: Arc::new(integral),
-            initial: components.map(|c| system.initial_tensor(c, time.len())).collect(),
+            initial: components
+                .map(|c| system.initial_tensor(c, time.len()))
+                .collect(),
             groups: partition.into_iter().map(group).collect(),
             metric,
         })
@@ -175,7 +197,11 @@ impl<'a> Problem<'a> {
 
     fn metric_of(&self, group: usize) -> Vec<DVector<f64>> {
         let mut metric = self.metric.clone();
-        metric[0] = self.metric[0].clone().as_slice().repeat(self.groups[group].members.len()).into();
+        metric[0] = self.metric[0]
+            .clone()
+            .as_slice()
+            .repeat(self.groups[group].members.len())
+            .into();
         metric
     }
 
@@ -185,11 +211,16 @@ impl<'a> Problem<'a> {
         let of_group = |group: &Group| {
             let local = group.members.iter().position(|c| *c == component)?;
             let all = &group.increment;
-            let mut factors: Vec<_> = (0..all.dimensions()).map(|j| all.factors(j).clone()).collect();
+            let mut factors: Vec<_> = (0..all.dimensions())
+                .map(|j| all.factors(j).clone())
+                .collect();
             factors[0] = factors[0].rows(local * n, n).into_owned();
             Some(Canonical::from_parts(all.weights().to_vec(), factors))
         };
-        self.groups.iter().find_map(of_group).expect("every component is in a group")
+        self.groups
+            .iter()
+            .find_map(of_group)
+            .expect("every component is in a group")
     }
 
     /// u of one component.
@@ -200,9 +231,14 @@ impl<'a> Problem<'a> {
     /// A tensor of one component in the first dimension of its group.
     fn embedded(&self, group: usize, component: usize, tensor: &Canonical) -> Canonical {
         let members = &self.groups[group].members;
-        let local = members.iter().position(|c| *c == component).expect("component of this group");
+        let local = members
+            .iter()
+            .position(|c| *c == component)
+            .expect("component of this group");
         let n = self.time.len();
-        let mut factors: Vec<_> = (0..tensor.dimensions()).map(|j| tensor.factors(j).clone()).collect();
+        let mut factors: Vec<_> = (0..tensor.dimensions())
+            .map(|j| tensor.factors(j).clone())
+            .collect();
         let mut first = DMatrix::zeros(n * members.len(), tensor.rank());
         first.rows_mut(local * n, n).copy_from(&factors[0]);
         factors[0] = first;
@@ -213,15 +249,26 @@ impl<'a> Problem<'a> {
     fn tested_rate(&self, term: &RateTerm, states: Canonical) -> Canonical {
         let mut vectors = vec![DVector::repeat(self.time.len(), 1.0)];
         let profile = self.system.profile(&term.parameters);
-        vectors.extend(profile.iter().zip(&self.metric[1..]).map(|(f, w)| f.component_mul(w)));
+        vectors.extend(
+            profile
+                .iter()
+                .zip(&self.metric[1..])
+                .map(|(f, w)| f.component_mul(w)),
+        );
         let scaled = states.scaled(term.coefficient, &vectors);
-        let mut factors: Vec<_> = (0..scaled.dimensions()).map(|j| scaled.factors(j).clone()).collect();
+        let mut factors: Vec<_> = (0..scaled.dimensions())
+            .map(|j| scaled.factors(j).clone())
+            .collect();
         factors[0] = self.tested_integral.as_ref() * &factors[0];
         Canonical::from_parts(scaled.weights().to_vec(), factors)
     }
 
     fn ones(&self) -> Canonical {
-        let ones: Vec<DVector<f64>> = self.metric.iter().map(|w| DVector::repeat(w.len(), 1.0)).collect();
+        let ones: Vec<DVector<f64>> = self
+            .metric
+            .iter()
+            .map(|w| DVector::repeat(w.len(), 1.0))
+            .collect();
         let shape: Vec<usize> = ones.iter().map(DVector::len).collect();
         let mut tensor = Canonical::zeros(&shape);
         tensor.push(1.0, &ones).expect("the shape is its own");
@@ -276,7 +323,11 @@ impl<'a> Problem<'a> {
     fn operator(&self, group: usize) -> Operator {
         let members = &self.groups[group].members;
         let mut operator = Operator::zero(&self.groups[group].increment.shape());
-        let identity = self.metric_of(group).into_iter().map(Factor::Diagonal).collect();
+        let identity = self
+            .metric_of(group)
+            .into_iter()
+            .map(Factor::Diagonal)
+            .collect();
         let built = "built from the same axes";
         operator.push(identity).expect(built);
         for term in &self.system.rates {
@@ -294,7 +345,8 @@ impl<'a> Problem<'a> {
                     [] => self.ones(),
                 };
                 for mode in 0..other.rank() {
-                    let scale = other.factors(0).column(mode) * (-term.coefficient * other.weights()[mode]);
+                    let scale =
+                        other.factors(0).column(mode) * (-term.coefficient * other.weights()[mode]);
                     let mut factors = vec![Factor::Block {
                         row,
                         column,
@@ -316,9 +368,13 @@ impl<'a> Problem<'a> {
     /// ‖û − ∫f(u)‖ / ‖û‖ over nodes of the parameter grid, all or a random sample of them.
     fn relative_residual(&self, points: usize, seed: u64) -> f64 {
         let axes = &self.system.parameters;
-        let all = axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(axis.len()));
+        let all = axes
+            .iter()
+            .try_fold(1_usize, |n, axis| n.checked_mul(axis.len()));
         let exhaustive = all.filter(|n| *n <= points);
-        let increments: Vec<Canonical> = (0..self.system.components).map(|c| self.increment(c)).collect();
+        let increments: Vec<Canonical> = (0..self.system.components)
+            .map(|c| self.increment(c))
+            .collect();
         let mut random = Pcg64::seed_from_u64(seed);
         let (mut squares, mut norm) = (0.0, 0.0);
         let times = self.time.len();
@@ -345,15 +401,21 @@ impl<'a> Problem<'a> {
                     let product = |mode: usize| {
                         let factors = indices.iter().enumerate();
                         increment.weights()[mode]
-                            * factors.map(|(j, i)| increment.factors(j + 1)[(*i, mode)]).product::<f64>()
+                            * factors
+                                .map(|(j, i)| increment.factors(j + 1)[(*i, mode)])
+                                .product::<f64>()
                     };
-                    increment.factors(0) * DVector::from_fn(increment.rank(), |mode, _| product(mode))
+                    increment.factors(0)
+                        * DVector::from_fn(increment.rank(), |mode, _| product(mode))
                 })
                 .collect();
             for t in 0..times {
                 let state: Vec<f64> = values.iter().zip(&initial).map(|(v, i)| v[t] + i).collect();
                 self.system.rate(&parameters, &state, &mut rate);
-                rates.iter_mut().zip(&rate).for_each(|(all, one)| all[t] = *one);
+                rates
+                    .iter_mut()
+                    .zip(&rate)
+                    .for_each(|(all, one)| all[t] = *one);
             }
             for (value, rate) in values.iter().zip(&rates) {
                 let residual = self.integral.as_ref() * rate - value;
@@ -375,15 +437,22 @@ impl<'a> Problem<'a> {
         shape[0] = time.len() * components;
         let mut all = Canonical::zeros(&shape);
         for (c, initial) in self.initial.iter().enumerate() {
-            let mut factors: Vec<_> = (0..initial.dimensions()).map(|j| initial.factors(j).clone()).collect();
+            let mut factors: Vec<_> = (0..initial.dimensions())
+                .map(|j| initial.factors(j).clone())
+                .collect();
             factors[0] = DMatrix::zeros(shape[0], initial.rank());
             factors[0].rows_mut(c * time.len(), time.len()).fill(1.0);
-            all = all.plus(1.0, &Canonical::from_parts(initial.weights().to_vec(), factors));
+            all = all.plus(
+                1.0,
+                &Canonical::from_parts(initial.weights().to_vec(), factors),
+            );
         }
         for group in &self.groups {
             let mut increment = group.increment.clone();
             increment.sort();
-            let mut factors: Vec<_> = (0..increment.dimensions()).map(|j| increment.factors(j).clone()).collect();
+            let mut factors: Vec<_> = (0..increment.dimensions())
+                .map(|j| increment.factors(j).clone())
+                .collect();
             let mut first = DMatrix::zeros(shape[0], increment.rank());
             for (local, c) in group.members.iter().enumerate() {
                 // The increment vanishes at the start, which the free axis has a node for.
@@ -391,7 +460,10 @@ impl<'a> Problem<'a> {
                 first.rows_mut(c * time.len() + 1, n).copy_from(&rows);
             }
             factors[0] = first;
-            all = all.plus(1.0, &Canonical::from_parts(increment.weights().to_vec(), factors));
+            all = all.plus(
+                1.0,
+                &Canonical::from_parts(increment.weights().to_vec(), factors),
+            );
         }
         let axes = std::iter::once(time).chain(self.system.parameters.iter().cloned());
         Separated::new(components, axes.collect(), &all)

@@ -3,7 +3,12 @@
 use super::axis::Axis;
 use super::quadratic::{Dependence, InitialTerm, QuadraticSystem, RateTerm};
 
-fn rate(component: usize, coefficient: f64, states: &[usize], parameters: &[Dependence]) -> RateTerm {
+fn rate(
+    component: usize,
+    coefficient: f64,
+    states: &[usize],
+    parameters: &[Dependence],
+) -> RateTerm {
     RateTerm {
         component,
         coefficient,
@@ -28,7 +33,10 @@ pub fn linear(k: Axis) -> QuadraticSystem {
         components: 1,
         parameters: vec![k],
         initial: vec![],
-        rates: vec![rate(0, 10.0, &[], &[(0, |k| 1.0 / k)]), rate(0, -1.0, &[], &[])],
+        rates: vec![
+            rate(0, 10.0, &[], &[(0, |k| 1.0 / k)]),
+            rate(0, -1.0, &[], &[]),
+        ],
     }
 }
 
@@ -68,7 +76,12 @@ pub fn coupled_triple(initial_value: &Axis) -> QuadraticSystem {
         components: 3,
         parameters: vec![initial_value.clone(); 3],
         initial: unknown_initial_values(3),
-        rates: [equation(0, 1.0, 1, 2), equation(1, 2.0, 0, 2), equation(2, 3.0, 0, 1)].concat(),
+        rates: [
+            equation(0, 1.0, 1, 2),
+            equation(1, 2.0, 0, 2),
+            equation(2, 3.0, 0, 1),
+        ]
+        .concat(),
     }
 }
 
@@ -98,7 +111,12 @@ pub fn kirchhoff_ellipsoid(initial_velocity: &Axis) -> QuadraticSystem {
         rates.push(rate(i, gravity[i] / mass[i], &[], &[]));
         rates.push(rate(i, mass[j] / mass[i], &[j, 3 + k], &[]));
         rates.push(rate(i, -mass[k] / mass[i], &[k, 3 + j], &[]));
-        rates.push(rate(3 + i, (inertia[j] - inertia[k]) / inertia[i], &[3 + j, 3 + k], &[]));
+        rates.push(rate(
+            3 + i,
+            (inertia[j] - inertia[k]) / inertia[i],
+            &[3 + j, 3 + k],
+            &[],
+        ));
         rates.push(rate(3 + i, (mass[j] - mass[k]) / inertia[i], &[j, k], &[]));
     }
     QuadraticSystem {
@@ -128,7 +146,11 @@ mod tests {
             [energy, impulse]
         };
         let start = [0.9, 0.3, 0.7, 0.2, 0.8, 0.6];
-        let accuracy = Accuracy { relative: 1e-12, absolute: 1e-12, ..Accuracy::default() };
+        let accuracy = Accuracy {
+            relative: 1e-12,
+            absolute: 1e-12,
+            ..Accuracy::default()
+        };
         let end = system.integrate(&start, 5.0, accuracy).unwrap();
         for (a, b) in invariants(&start).iter().zip(invariants(&end)) {
             assert!((a - b).abs() < 1e-9, "{a} {b}");

@@ -46,8 +46,8 @@ impl FallingPlate {
         let speed = squared.sqrt();
         // All terms below vanish with the speed; the quotients must not be taken there.
         let inverse = if speed > 0.0 { 1.0 / speed } else { 0.0 };
-        let circulation = 2.0 / PI
-            * (self.rotational_lift * spin - self.translational_lift * u * v * inverse);
+        let circulation =
+            2.0 / PI * (self.rotational_lift * spin - self.translational_lift * u * v * inverse);
         let drag = (self.drag_mean * speed - self.drag_variation * (u * u - v * v) * inverse) / PI;
         let torque = self.rotational_drag * (1.0 + spin.abs()) * spin;
         let i = self.inertia_ratio;
@@ -60,9 +60,34 @@ impl FallingPlate {
         out[5] = u * sin + v * cos;
     }
 
+    /// The plate with these (C_T, C_R, A, B, μ), as identification varies them.
+    pub fn with_coefficients(inertia_ratio: f64, coefficients: [f64; 5]) -> Self {
+        let [
+            translational_lift,
+            rotational_lift,
+            drag_mean,
+            drag_variation,
+            rotational_drag,
+        ] = coefficients;
+        Self {
+            inertia_ratio,
+            translational_lift,
+            rotational_lift,
+            drag_mean,
+            drag_variation,
+            rotational_drag,
+        }
+    }
+
     /// Advances the state by `duration`; the time that was reached is returned.
     pub fn advance(&self, state: &mut [f64], duration: f64, accuracy: Accuracy) -> f64 {
-        integrate(|_, x, out| self.rate(x, out), 0.0, duration, state, accuracy)
+        integrate(
+            |_, x, out| self.rate(x, out),
+            0.0,
+            duration,
+            state,
+            accuracy,
+        )
     }
 
     /// The states at increasing `times` (≥ 0) from `start` at time 0, one after the other.
@@ -86,9 +111,16 @@ mod tests {
     use super::*;
 
     fn late(inertia_ratio: f64, span: f64) -> Vec<[f64; 6]> {
-        let plate = FallingPlate { inertia_ratio, ..FallingPlate::default() };
+        let plate = FallingPlate {
+            inertia_ratio,
+            ..FallingPlate::default()
+        };
         let mut start = [1e-3, 1e-3, 1e-3, std::f64::consts::FRAC_PI_4, 0.0, 0.0];
-        let accuracy = Accuracy { relative: 1e-10, absolute: 1e-10, ..Accuracy::default() };
+        let accuracy = Accuracy {
+            relative: 1e-10,
+            absolute: 1e-10,
+            ..Accuracy::default()
+        };
         plate.advance(&mut start, 200.0, accuracy);
         let times: Vec<f64> = (0..=4000).map(|i| span * f64::from(i) / 4000.0).collect();
         plate.trajectory(&start, &times, accuracy)

@@ -123,14 +123,22 @@ mod tests {
             for (rule, exact) in rules {
                 assert!(rule.nodes.windows(2).all(|pair| pair[0] < pair[1]));
                 for degree in 0..=exact {
-                    let expected = if degree % 2 == 0 { 2.0 / (degree as f64 + 1.0) } else { 0.0 };
+                    let expected = if degree % 2 == 0 {
+                        2.0 / (degree as f64 + 1.0)
+                    } else {
+                        0.0
+                    };
                     let error = (moment(&rule, degree) - expected).abs();
                     assert!(error < 1e-13, "n = {n}, degree {degree}: {error:e}");
                 }
                 if n <= 8 {
                     let next = exact + 1 + exact % 2;
                     let next = if next == exact + 1 { next } else { exact + 1 };
-                    let expected = if next % 2 == 0 { 2.0 / (next as f64 + 1.0) } else { 0.0 };
+                    let expected = if next % 2 == 0 {
+                        2.0 / (next as f64 + 1.0)
+                    } else {
+                        0.0
+                    };
                     assert!((moment(&rule, next) - expected).abs() > 1e-9, "n = {n}");
                 }
             }
@@ -146,6 +154,12 @@ mod tests {
         let three = Rule::radau_right(3);
         let expected = 2.0 * (4.0 - 6.0_f64.sqrt()) / 10.0 - 1.0;
         assert!((three.nodes[0] - expected).abs() < 1e-15);
-        assert_eq!(Rule::radau_right(1), Rule { nodes: vec![1.0], weights: vec![2.0] });
+        assert_eq!(
+            Rule::radau_right(1),
+            Rule {
+                nodes: vec![1.0],
+                weights: vec![2.0]
+            }
+        );
     }
 }

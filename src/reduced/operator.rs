@@ -34,7 +34,9 @@ impl Factor {
         match self {
             Self::Diagonal(diagonal) => diagonal.len(),
             Self::Dense(matrix) => matrix.nrows(),
-            Self::Block { components, scale, .. } => components * scale.len(),
+            Self::Block {
+                components, scale, ..
+            } => components * scale.len(),
         }
     }
 
@@ -44,7 +46,13 @@ impl Factor {
         match self {
             Self::Diagonal(_) => Ok(()),
             Self::Dense(matrix) => check(matrix.ncols()),
-            Self::Block { row, column, components, matrix, scale } => {
+            Self::Block {
+                row,
+                column,
+                components,
+                matrix,
+                scale,
+            } => {
                 check(matrix.nrows() * components)?;
                 check(matrix.ncols() * components)?;
                 Error::check_length("scale of a block", matrix.ncols(), scale.len())?;
@@ -59,11 +67,19 @@ impl Factor {
         match self {
             Self::Diagonal(diagonal) => scale_rows(x, diagonal),
             Self::Dense(matrix) => matrix * x,
-            Self::Block { row, column, matrix, scale, .. } => {
+            Self::Block {
+                row,
+                column,
+                matrix,
+                scale,
+                ..
+            } => {
                 let n = scale.len();
                 let mut result = DMatrix::zeros(x.nrows(), x.ncols());
                 let part = scale_rows(&x.rows(column * n, n).into_owned(), scale);
-                result.rows_mut(row * n, n).copy_from(&(matrix.as_ref() * part));
+                result
+                    .rows_mut(row * n, n)
+                    .copy_from(&(matrix.as_ref() * part));
                 result
             }
         }
@@ -72,7 +88,13 @@ impl Factor {
     /// Xᵀ · this · X.
     pub(crate) fn gram(&self, test: &DMatrix<f64>, x: &DMatrix<f64>) -> DMatrix<f64> {
         match self {
-            Self::Block { row, column, matrix, scale, .. } => {
+            Self::Block {
+                row,
+                column,
+                matrix,
+                scale,
+                ..
+            } => {
                 let n = scale.len();
                 let part = scale_rows(&x.rows(column * n, n).into_owned(), scale);
                 test.rows(row * n, n).tr_mul(&(matrix.as_ref() * part))
@@ -84,9 +106,21 @@ impl Factor {
     /// One entry.
     pub(crate) fn entry(&self, i: usize, j: usize) -> f64 {
         match self {
-            Self::Diagonal(diagonal) => if i == j { diagonal[i] } else { 0.0 },
+            Self::Diagonal(diagonal) => {
+                if i == j {
+                    diagonal[i]
+                } else {
+                    0.0
+                }
+            }
             Self::Dense(matrix) => matrix[(i, j)],
-            Self::Block { row, column, matrix, scale, .. } => {
+            Self::Block {
+                row,
+                column,
+                matrix,
+                scale,
+                ..
+            } => {
                 let n = scale.len();
                 if i / n == *row && j / n == *column {
                     matrix[(i % n, j % n)] * scale[j % n]
@@ -123,7 +157,11 @@ impl Operator {
     /// # Errors
     /// If the number or the sizes of the factors differ from the shape.
     pub fn push(&mut self, factors: Vec<Factor>) -> Result<(), Error> {
-        Error::check_length("factors of an operator's term", self.shape.len(), factors.len())?;
+        Error::check_length(
+            "factors of an operator's term",
+            self.shape.len(),
+            factors.len(),
+        )?;
         for (factor, size) in factors.iter().zip(&self.shape) {
             factor.check(*size)?;
         }
@@ -201,7 +239,9 @@ impl Operator {
             }
         };
         let terms = self.terms.iter();
-        terms.map(|term| term.iter().zip(metric).map(transpose).collect()).collect()
+        terms
+            .map(|term| term.iter().zip(metric).map(transpose).collect())
+            .collect()
     }
 }
 
@@ -232,7 +272,11 @@ mod tests {
         let diagonal = |n| Factor::Diagonal(DVector::zeros(n));
         assert!(operator.push(vec![diagonal(2)]).is_err());
         assert!(operator.push(vec![diagonal(3), diagonal(2)]).is_err());
-        assert!(operator.push(vec![diagonal(2), Factor::Dense(DMatrix::zeros(3, 2))]).is_err());
+        assert!(
+            operator
+                .push(vec![diagonal(2), Factor::Dense(DMatrix::zeros(3, 2))])
+                .is_err()
+        );
         assert!(operator.push(vec![diagonal(2), diagonal(3)]).is_ok());
     }
 }

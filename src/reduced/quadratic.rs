@@ -100,7 +100,11 @@ impl QuadraticSystem {
             dependences(&term.parameters)?;
         }
         for term in &self.initial {
-            index("component of an initial value", term.component, self.components)?;
+            index(
+                "component of an initial value",
+                term.component,
+                self.components,
+            )?;
             Error::check_finite("coefficient of an initial value", &[term.coefficient])?;
             dependences(&term.parameters)?;
         }
@@ -121,7 +125,8 @@ impl QuadraticSystem {
         out.fill(0.0);
         for term in &self.rates {
             let states: f64 = term.states.iter().map(|s| state[*s]).product();
-            out[term.component] += term.coefficient * states * product(&term.parameters, parameters);
+            out[term.component] +=
+                term.coefficient * states * product(&term.parameters, parameters);
         }
     }
 
@@ -129,12 +134,20 @@ impl QuadraticSystem {
     ///
     /// # Errors
     /// The singularity, if the solution does not reach `time`.
-    pub fn integrate(&self, parameters: &[f64], time: f64, accuracy: Accuracy) -> Result<Vec<f64>, Singularity> {
+    pub fn integrate(
+        &self,
+        parameters: &[f64],
+        time: f64,
+        accuracy: Accuracy,
+    ) -> Result<Vec<f64>, Singularity> {
         let mut state = self.initial_state(parameters);
         let rate = |_: f64, x: &[f64], out: &mut [f64]| self.rate(parameters, x, out);
         let reached = integrate(rate, 0.0, time, &mut state, accuracy);
         if reached < time || state.iter().any(|x| !(x.abs() < 1e12)) {
-            return Err(Singularity { parameters: parameters.to_vec(), time: reached });
+            return Err(Singularity {
+                parameters: parameters.to_vec(),
+                time: reached,
+            });
         }
         Ok(state)
     }
@@ -146,23 +159,41 @@ impl QuadraticSystem {
         let d = self.parameters.len();
         let corner = |bits: usize| -> Vec<f64> {
             let ends = self.parameters.iter().enumerate();
-            ends.map(|(j, axis)| if bits >> j & 1 == 0 { axis.start() } else { axis.end() }).collect()
+            ends.map(|(j, axis)| {
+                if bits >> j & 1 == 0 {
+                    axis.start()
+                } else {
+                    axis.end()
+                }
+            })
+            .collect()
         };
         let mut random = Pcg64::seed_from_u64(seed);
         let mut inside = || -> Vec<f64> {
             let axes = self.parameters.iter();
-            axes.map(|axis| random.random_range(axis.start()..axis.end())).collect()
+            axes.map(|axis| random.random_range(axis.start()..axis.end()))
+                .collect()
         };
         let corners = (0..1 << d.min(10)).map(corner);
-        let accuracy = Accuracy { relative: 1e-7, absolute: 1e-9, ..Accuracy::default() };
+        let accuracy = Accuracy {
+            relative: 1e-7,
+            absolute: 1e-9,
+            ..Accuracy::default()
+        };
         let points: Vec<_> = corners.chain((0..256).map(|_| inside())).collect();
-        let singular = points.iter().filter_map(|p| self.integrate(p, time, accuracy).err());
+        let singular = points
+            .iter()
+            .filter_map(|p| self.integrate(p, time, accuracy).err());
         singular.min_by(|a, b| a.time.total_cmp(&b.time))
     }
 
     /// Nodal values of the product of functions of parameters, one vector per parameter.
     pub(crate) fn profile(&self, dependences: &[Dependence]) -> Vec<DVector<f64>> {
-        let mut factors: Vec<DVector<f64>> = self.parameters.iter().map(|axis| axis.sample(|_| 1.0)).collect();
+        let mut factors: Vec<DVector<f64>> = self
+            .parameters
+            .iter()
+            .map(|axis| axis.sample(|_| 1.0))
+            .collect();
         for (position, function) in dependences {
             factors[*position].component_mul_assign(&self.parameters[*position].sample(function));
         }
@@ -177,12 +208,17 @@ impl QuadraticSystem {
         for term in self.initial.iter().filter(|t| t.component == component) {
             let mut factors = vec![DVector::repeat(times, 1.0)];
             factors.extend(self.profile(&term.parameters));
-            tensor.push(term.coefficient, &factors).expect("built from the same axes");
+            tensor
+                .push(term.coefficient, &factors)
+                .expect("built from the same axes");
         }
         tensor
     }
 }
 
 fn product(dependences: &[Dependence], parameters: &[f64]) -> f64 {
-    dependences.iter().map(|(position, function)| function(parameters[*position])).product()
+    dependences
+        .iter()
+        .map(|(position, function)| function(parameters[*position]))
+        .product()
 }

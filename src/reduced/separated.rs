@@ -10,7 +10,10 @@ use rapier3d::na::{DMatrix, DVector};
 ///
 /// It was baked over the ranges of its axes; outside of them it is evaluated at their nearer end.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub struct Separated {
     pub(crate) components: usize,
     pub(crate) axes: Vec<Axis>,
@@ -42,12 +45,22 @@ impl Separated {
     pub(crate) fn check(&self) -> Result<(), Error> {
         Error::check_positive("components", self.components as f64)?;
         Error::check_positive("number of axes", self.axes.len() as f64)?;
-        Error::check_length("factors of a separated representation", self.axes.len(), self.factors.len())?;
+        Error::check_length(
+            "factors of a separated representation",
+            self.axes.len(),
+            self.factors.len(),
+        )?;
         Error::check_finite("weights of the modes", &self.weights)?;
         for (j, (axis, factor)) in self.axes.iter().zip(&self.factors).enumerate() {
-            let rows = axis.len().checked_mul(if j == 0 { self.components } else { 1 });
+            let rows = axis
+                .len()
+                .checked_mul(if j == 0 { self.components } else { 1 });
             let expected = rows.and_then(|rows| rows.checked_mul(self.modes()));
-            Error::check_length("entries of a factor", expected.unwrap_or(usize::MAX), factor.len())?;
+            Error::check_length(
+                "entries of a factor",
+                expected.unwrap_or(usize::MAX),
+                factor.len(),
+            )?;
             Error::check_finite("factor of a separated representation", factor)?;
         }
         Ok(())
@@ -82,7 +95,11 @@ impl Separated {
         assert!(mode < self.modes() && component < self.components);
         let mut basis = [0.0; MAX_DEGREE + 1];
         let (first, count) = self.axes[axis].basis(x, &mut basis);
-        let offset = if axis == 0 { component * self.axes[0].len() } else { 0 } + first;
+        let offset = if axis == 0 {
+            component * self.axes[0].len()
+        } else {
+            0
+        } + first;
         let value = |i: usize| self.factors[axis][(offset + i) * self.modes() + mode];
         (0..count).map(|i| basis[i] * value(i)).sum()
     }
@@ -118,7 +135,11 @@ impl Separated {
     /// # Panics
     /// If there is not one list per axis.
     pub fn grid(&self, coordinates: &[&[f64]]) -> Vec<f64> {
-        assert_eq!(coordinates.len(), self.axes.len(), "one list of coordinates per axis");
+        assert_eq!(
+            coordinates.len(),
+            self.axes.len(),
+            "one list of coordinates per axis"
+        );
         let all: usize = coordinates.iter().map(|list| list.len()).product();
         // Axes before `split` index the rows of the product, the others its columns.
         let mut split = 1;
@@ -137,10 +158,14 @@ impl Separated {
                 column *= *weight;
             }
             // Modes of other components (decoupled systems) vanish here.
-            let modes: Vec<usize> = (0..self.modes()).filter(|m| first.column(*m).amax() > 0.0).collect();
-            let left = later[..split - 1].iter().fold(first.select_columns(&modes), |product, factor| {
-                row_products(&product, factor, &modes)
-            });
+            let modes: Vec<usize> = (0..self.modes())
+                .filter(|m| first.column(*m).amax() > 0.0)
+                .collect();
+            let left = later[..split - 1]
+                .iter()
+                .fold(first.select_columns(&modes), |product, factor| {
+                    row_products(&product, factor, &modes)
+                });
             let ones = DMatrix::repeat(1, modes.len(), 1.0);
             let right = later[split - 1..].iter().fold(ones, |product, factor| {
                 row_products(&product, factor, &modes)
@@ -154,7 +179,8 @@ impl Separated {
     fn interpolated(&self, axis: usize, component: usize, points: &[f64]) -> DMatrix<f64> {
         let (n, modes) = (self.axes[axis].len(), self.modes());
         let start = component * n * modes;
-        let values = DMatrix::from_row_slice(n, modes, &self.factors[axis][start..start + n * modes]);
+        let values =
+            DMatrix::from_row_slice(n, modes, &self.factors[axis][start..start + n * modes]);
         self.axes[axis].interpolation_matrix(points) * values
     }
 
@@ -176,7 +202,12 @@ impl Separated {
             }
             factors.push(factor);
         }
-        let resampled = Self { components: self.components, axes, weights: self.weights.clone(), factors };
+        let resampled = Self {
+            components: self.components,
+            axes,
+            weights: self.weights.clone(),
+            factors,
+        };
         resampled.check()?;
         Ok(resampled)
     }
@@ -207,7 +238,9 @@ fn row_products(product: &DMatrix<f64>, factor: &DMatrix<f64>, modes: &[usize]) 
     for (column, mode) in modes.iter().enumerate() {
         let mut target = result.column_mut(column);
         for (row, value) in factor.column(*mode).iter().enumerate() {
-            target.rows_mut(row * n, n).copy_from(&(product.column(column) * *value));
+            target
+                .rows_mut(row * n, n)
+                .copy_from(&(product.column(column) * *value));
         }
     }
     result
@@ -251,7 +284,12 @@ impl Evaluator<'_> {
             let start = component * separated.axes[0].len() + first;
             let rows = &separated.factors[0][start * modes..(start + count) * modes];
             interpolate(&self.basis[..count], rows, &mut self.sums);
-            *value = self.products.iter().zip(&self.sums).map(|(a, b)| a * b).sum();
+            *value = self
+                .products
+                .iter()
+                .zip(&self.sums)
+                .map(|(a, b)| a * b)
+                .sum();
         }
     }
 }
@@ -284,7 +322,9 @@ mod tests {
         let first = DVector::from_vec(both.collect());
         let x = axes[1].sample(|x| 1.0 + x);
         let y = axes[2].sample(|y| y * y);
-        tensor.push(0.25, &[first.clone(), x.clone(), y.clone()]).unwrap();
+        tensor
+            .push(0.25, &[first.clone(), x.clone(), y.clone()])
+            .unwrap();
         tensor.push(0.75, &[first, x, y]).unwrap();
         Separated::new(2, axes, &tensor).unwrap()
     }
@@ -318,8 +358,14 @@ mod tests {
     #[test]
     fn evaluation_is_clamped() {
         let separated = example();
-        assert_eq!(separated.evaluate(&[-5.0, 9.0, f64::NAN]), separated.evaluate(&[0.0, 1.0, 0.0]));
-        assert_eq!(separated.evaluate(&[f64::INFINITY, 0.0, 1.0]), separated.evaluate(&[2.0, 0.0, 1.0]));
+        assert_eq!(
+            separated.evaluate(&[-5.0, 9.0, f64::NAN]),
+            separated.evaluate(&[0.0, 1.0, 0.0])
+        );
+        assert_eq!(
+            separated.evaluate(&[f64::INFINITY, 0.0, 1.0]),
+            separated.evaluate(&[2.0, 0.0, 1.0])
+        );
     }
 
     #[test]
@@ -332,7 +378,11 @@ mod tests {
         ];
         let other = separated.resampled(axes).unwrap();
         for point in [[0.3, 0.2, 1.0], [1.9, -0.9, 2.5]] {
-            for (a, b) in separated.evaluate(&point).iter().zip(other.evaluate(&point)) {
+            for (a, b) in separated
+                .evaluate(&point)
+                .iter()
+                .zip(other.evaluate(&point))
+            {
                 assert!((a - b).abs() < 1e-5);
             }
         }
@@ -343,14 +393,19 @@ mod tests {
     fn wrong_shapes_are_errors() {
         let axis = Axis::spectral(0.0, 1.0, 4).unwrap();
         let mut tensor = Canonical::zeros(&[4, 4]);
-        assert!(Separated::new(2, vec![axis.clone(); 2], &{
-            let mut t = tensor.clone();
-            t.push(1.0, &[DVector::zeros(4), DVector::zeros(4)]).unwrap();
-            t
-        })
-        .is_err());
+        assert!(
+            Separated::new(2, vec![axis.clone(); 2], &{
+                let mut t = tensor.clone();
+                t.push(1.0, &[DVector::zeros(4), DVector::zeros(4)])
+                    .unwrap();
+                t
+            })
+            .is_err()
+        );
         assert!(Separated::new(1, vec![axis.clone(); 3], &tensor).is_err());
-        tensor.push(f64::NAN, &[DVector::zeros(4), DVector::zeros(4)]).unwrap();
+        tensor
+            .push(f64::NAN, &[DVector::zeros(4), DVector::zeros(4)])
+            .unwrap();
         assert!(Separated::new(1, vec![axis; 2], &tensor).is_err());
     }
 }

@@ -11,7 +11,10 @@ use crate::Error;
 /// Accurate as long as all trajectories of the domain stay alike; where motion patterns change
 /// within it, the trajectories of the two sides part, and the ranks grow without bound.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub struct TrajectorySurrogate {
     pub(crate) time: Axis,
     pub(crate) components: usize,
@@ -35,7 +38,14 @@ impl TrajectorySurrogate {
         let outputs = times.len() * components;
         let (train, report) = cross(parameters, outputs, |p, out| model(p, &times, out), params)?;
         let train = train.rounded(0.1 * params.tolerance);
-        Ok((Self { time, components, train }, report))
+        Ok((
+            Self {
+                time,
+                components,
+                train,
+            },
+            report,
+        ))
     }
 
     /// The ranges of the parameters.
@@ -75,7 +85,11 @@ impl TrajectorySurrogate {
         self.train.check()?;
         Error::check_positive("components", self.components as f64)?;
         let expected = self.time.len().saturating_mul(self.components);
-        Error::check_length("outputs of a trajectory surrogate", expected, self.train.outputs())
+        Error::check_length(
+            "outputs of a trajectory surrogate",
+            expected,
+            self.train.outputs(),
+        )
     }
 }
 
@@ -86,7 +100,10 @@ impl TrajectorySurrogate {
 /// where [`TrajectorySurrogate`] fails; two neighbouring chaotic trajectories part as ever. It
 /// costs Σ rank² · nodes per step, and pays only where the dynamics it stands for cost more.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub struct FlowMap {
     pub(crate) step: f64,
     pub(crate) components: usize,
@@ -118,7 +135,14 @@ impl FlowMap {
         };
         let (train, report) = cross(axes, components + further, change, params)?;
         let train = train.rounded(0.1 * params.tolerance);
-        Ok((Self { step, components, train }, report))
+        Ok((
+            Self {
+                step,
+                components,
+                train,
+            },
+            report,
+        ))
     }
 
     /// How long one step is.
@@ -135,8 +159,18 @@ impl FlowMap {
     ///
     /// # Panics
     /// If a length differs from what was baked.
-    pub fn change(&self, state: &[f64], parameters: &[f64], change: &mut [f64], scratch: &mut Vec<f64>) {
-        assert_eq!(state.len(), self.components, "one entry per component of the state");
+    pub fn change(
+        &self,
+        state: &[f64],
+        parameters: &[f64],
+        change: &mut [f64],
+        scratch: &mut Vec<f64>,
+    ) {
+        assert_eq!(
+            state.len(),
+            self.components,
+            "one entry per component of the state"
+        );
         let point: Vec<f64> = state.iter().chain(parameters).copied().collect();
         self.train.evaluate_into(&point, change, scratch);
     }

@@ -7,7 +7,10 @@ use rapier3d::na::DMatrix;
 
 /// One core: for every node a matrix from the rank on the left to the rank on the right.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub(crate) struct Core {
     pub left: usize,
     pub right: usize,
@@ -37,7 +40,10 @@ impl Core {
 ///
 /// Outside of the ranges of its axes it is evaluated at their nearer end.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub struct TensorTrain {
     pub(crate) axes: Vec<Axis>,
     pub(crate) outputs: usize,
@@ -49,14 +55,24 @@ impl TensorTrain {
     pub(crate) fn check(&self) -> Result<(), Error> {
         Error::check_positive("number of axes", self.axes.len() as f64)?;
         Error::check_positive("outputs", self.outputs as f64)?;
-        Error::check_length("cores of a tensor train", self.axes.len() + 1, self.cores.len())?;
+        Error::check_length(
+            "cores of a tensor train",
+            self.axes.len() + 1,
+            self.cores.len(),
+        )?;
         let nodes = self.axes.iter().map(Axis::len).chain([self.outputs]);
         let mut rank = 1;
         for (core, nodes) in self.cores.iter().zip(nodes) {
             Error::check_length("left rank of a core", rank, core.left)?;
             Error::check_positive("right rank of a core", core.right as f64)?;
-            let expected = nodes.checked_mul(core.left).and_then(|n| n.checked_mul(core.right));
-            Error::check_length("entries of a core", expected.unwrap_or(usize::MAX), core.entries.len())?;
+            let expected = nodes
+                .checked_mul(core.left)
+                .and_then(|n| n.checked_mul(core.right));
+            Error::check_length(
+                "entries of a core",
+                expected.unwrap_or(usize::MAX),
+                core.entries.len(),
+            )?;
             Error::check_finite("core of a tensor train", &core.entries)?;
             rank = core.right;
         }
@@ -75,7 +91,10 @@ impl TensorTrain {
 
     /// The ranks between the cores; the last is the one before the outputs.
     pub fn ranks(&self) -> Vec<usize> {
-        self.cores[..self.cores.len() - 1].iter().map(|core| core.right).collect()
+        self.cores[..self.cores.len() - 1]
+            .iter()
+            .map(|core| core.right)
+            .collect()
     }
 
     /// Writes the value at `point`. `scratch` keeps memory between calls; start with an empty one.
@@ -135,7 +154,12 @@ impl TensorTrain {
             cores[k] = Core::from_unfolding(&q, cores[k].left);
             cores[k + 1] = multiplied(&r, &cores[k + 1]);
         }
-        let norm = cores[last].entries.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let norm = cores[last]
+            .entries
+            .iter()
+            .map(|x| x * x)
+            .sum::<f64>()
+            .sqrt();
         let threshold = tolerance * norm / (last as f64).sqrt();
         for k in (1..=last).rev() {
             let core = &cores[k];
@@ -165,7 +189,11 @@ impl TensorTrain {
                     entries[(c / right * rank + new) * right + c % right] = v[(*old, c)];
                 }
             }
-            cores[k] = Core { left: rank, right, entries };
+            cores[k] = Core {
+                left: rank,
+                right,
+                entries,
+            };
             let mut scaled = u.select_columns(&order);
             for (mut column, old) in scaled.column_iter_mut().zip(&order) {
                 column *= svd.singular_values[*old];
@@ -173,7 +201,11 @@ impl TensorTrain {
             let before = &cores[k - 1];
             cores[k - 1] = Core::from_unfolding(&(before.unfolding() * scaled), before.left);
         }
-        Self { axes: self.axes.clone(), outputs: self.outputs, cores }
+        Self {
+            axes: self.axes.clone(),
+            outputs: self.outputs,
+            cores,
+        }
     }
 }
 
@@ -185,5 +217,9 @@ fn multiplied(matrix: &DMatrix<f64>, core: &Core) -> Core {
         let product = matrix * DMatrix::from_row_slice(core.left, core.right, node);
         entries.extend_from_slice(product.transpose().as_slice());
     }
-    Core { left: matrix.nrows(), right: core.right, entries }
+    Core {
+        left: matrix.nrows(),
+        right: core.right,
+        entries,
+    }
 }

@@ -10,13 +10,17 @@ use rapier3d_immersed::reduced::pgd::{PgdParams, solve};
 use std::f64::consts::PI;
 
 fn metric(axes: &[&Axis]) -> Vec<DVector<f64>> {
-    axes.iter().map(|a| DVector::from_column_slice(a.weights())).collect()
+    axes.iter()
+        .map(|a| DVector::from_column_slice(a.weights()))
+        .collect()
 }
 
 fn identity(metric: &[DVector<f64>]) -> Operator {
     let shape: Vec<usize> = metric.iter().map(DVector::len).collect();
     let mut operator = Operator::zero(&shape);
-    operator.push(metric.iter().cloned().map(Factor::Diagonal).collect()).unwrap();
+    operator
+        .push(metric.iter().cloned().map(Factor::Diagonal).collect())
+        .unwrap();
     operator
 }
 
@@ -33,21 +37,40 @@ fn two_dimensions_give_the_svd() {
     for j in 0..y.len() {
         let mut unit = DVector::zeros(y.len());
         unit[j] = metric[1][j];
-        source.push(1.0, &[data.column(j).component_mul(&metric[0]), unit]).unwrap();
+        source
+            .push(1.0, &[data.column(j).component_mul(&metric[0]), unit])
+            .unwrap();
     }
     let weighted = DMatrix::from_fn(x.len(), y.len(), |i, j| {
         data[(i, j)] * (metric[0][i] * metric[1][j]).sqrt()
     });
-    let mut values: Vec<f64> = weighted.svd(false, false).singular_values.iter().copied().collect();
+    let mut values: Vec<f64> = weighted
+        .svd(false, false)
+        .singular_values
+        .iter()
+        .copied()
+        .collect();
     values.sort_by(|a, b| b.total_cmp(a));
     let total = values.iter().map(|v| v * v).sum::<f64>().sqrt();
-    let params = PgdParams { max_modes: 6, tolerance: 0.0, update_rounds: 30, ..PgdParams::default() };
+    let params = PgdParams {
+        max_modes: 6,
+        tolerance: 0.0,
+        update_rounds: 30,
+        ..PgdParams::default()
+    };
     let (_, report) = solve(&identity(&metric), &source, &metric, &params).unwrap();
     for (n, residual) in report.residuals.iter().enumerate() {
         let best = values[n + 1..].iter().map(|v| v * v).sum::<f64>().sqrt() / total;
         println!("{} modes: {residual:.3e}, best {best:.3e}", n + 1);
-        assert!(*residual < best * 1.01 + 1e-12, "{} modes: {residual:e}, best {best:e}", n + 1);
-        assert!(*residual > best * 0.999 - 1e-12, "below the optimum: {residual:e} < {best:e}");
+        assert!(
+            *residual < best * 1.01 + 1e-12,
+            "{} modes: {residual:e}, best {best:e}",
+            n + 1
+        );
+        assert!(
+            *residual > best * 0.999 - 1e-12,
+            "below the optimum: {residual:e} < {best:e}"
+        );
     }
 }
 
@@ -60,11 +83,18 @@ fn a_rank_three_function_takes_three_modes() {
     for k in 0..3 {
         let factor = |j: usize| {
             let phase = (k * k * 5 + j) as f64;
-            axis.sample(|x| (1.3 * phase + x * (1.0 + 1.5 * k as f64)).cos()).component_mul(&metric[j])
+            axis.sample(|x| (1.3 * phase + x * (1.0 + 1.5 * k as f64)).cos())
+                .component_mul(&metric[j])
         };
-        source.push(1.0 + k as f64, &[0, 1, 2, 3, 4].map(factor)).unwrap();
+        source
+            .push(1.0 + k as f64, &[0, 1, 2, 3, 4].map(factor))
+            .unwrap();
     }
-    let params = PgdParams { tolerance: 1e-10, update_rounds: 300, ..PgdParams::default() };
+    let params = PgdParams {
+        tolerance: 1e-10,
+        update_rounds: 300,
+        ..PgdParams::default()
+    };
     let (_, report) = solve(&identity(&metric), &source, &metric, &params).unwrap();
     assert!(report.converged, "{report:?}");
     assert_eq!(report.modes, 3, "{report:?}");
@@ -75,14 +105,23 @@ fn a_rank_three_function_takes_three_modes() {
 /// eigenvalue. The error is that of the spectral elements: 1e-9 with ten points.
 #[test]
 fn poisson_in_six_dimensions() {
-    let axis = Axis::spectral(0.0, 1.0, 14).unwrap().with_zero_start().with_zero_end();
+    let axis = Axis::spectral(0.0, 1.0, 14)
+        .unwrap()
+        .with_zero_start()
+        .with_zero_end();
     let n = axis.len();
     let metric = metric(&[&axis; 6]);
     let mass = Factor::Dense(axis.matrix(Quadrature::Gauss(16), 0, 0, |_| 1.0));
     let stiffness = Factor::Dense(axis.matrix(Quadrature::Gauss(16), 1, 1, |_| 1.0));
     let mut operator = Operator::zero(&[n; 6]);
     for direction in 0..6 {
-        let factor = |j| if j == direction { stiffness.clone() } else { mass.clone() };
+        let factor = |j| {
+            if j == direction {
+                stiffness.clone()
+            } else {
+                mass.clone()
+            }
+        };
         operator.push((0..6).map(factor).collect()).unwrap();
     }
     let load = |k: f64| axis.load(Quadrature::Gauss(20), move |x| (k * PI * x).sin());
@@ -92,7 +131,10 @@ fn poisson_in_six_dimensions() {
     second[2] = load(2.0);
     second[4] = load(2.0);
     source.push(0.5, &second).unwrap();
-    let params = PgdParams { update_rounds: 10, ..PgdParams::default() };
+    let params = PgdParams {
+        update_rounds: 10,
+        ..PgdParams::default()
+    };
     let (solution, report) = solve(&operator, &source, &metric, &params).unwrap();
     assert!(report.converged, "{report:?}");
     assert_eq!(report.modes, 2);
@@ -102,7 +144,12 @@ fn poisson_in_six_dimensions() {
         let second = product * 4.0 * (PI * point[2]).cos() * (PI * point[4]).cos();
         product + 0.5 / (12.0 * PI * PI) * second
     };
-    for index in [[3, 4, 5, 6, 7, 8], [1, 2, 3, 1, 2, 3], [6; 6], [9, 9, 2, 4, 1, 5]] {
+    for index in [
+        [3, 4, 5, 6, 7, 8],
+        [1, 2, 3, 1, 2, 3],
+        [6; 6],
+        [9, 9, 2, 4, 1, 5],
+    ] {
         let point = index.map(|i| axis.nodes()[i]);
         let error = (solution.at(&index) - exact(&point)).abs();
         assert!(error < 1e-9, "{index:?}: {error:e}");

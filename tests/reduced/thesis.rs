@@ -19,7 +19,12 @@ use rapier3d_immersed::reduced::separated::Separated;
 
 fn params(max_modes: usize, tolerance: f64, update_rounds: usize) -> EvolutionParams {
     EvolutionParams {
-        pgd: PgdParams { max_modes, tolerance, update_rounds, ..PgdParams::default() },
+        pgd: PgdParams {
+            max_modes,
+            tolerance,
+            update_rounds,
+            ..PgdParams::default()
+        },
         ..EvolutionParams::default()
     }
 }
@@ -43,17 +48,31 @@ fn reference<const N: usize>(system: &QuadraticSystem, point: &[f64]) -> [f64; N
 }
 
 /// Random points of the domain, off the nodes, with the reference there.
-fn references<const N: usize>(system: &QuadraticSystem, end: f64, count: usize) -> Vec<(Vec<f64>, [f64; N])> {
+fn references<const N: usize>(
+    system: &QuadraticSystem,
+    end: f64,
+    count: usize,
+) -> Vec<(Vec<f64>, [f64; N])> {
     let mut random = Pcg64::seed_from_u64(5);
     let mut point = || -> Vec<f64> {
         let parameters = system.parameters.iter().map(|a| a.start()..a.end());
-        std::iter::once(0.0..end).chain(parameters).map(|r| random.random_range(r)).collect()
+        std::iter::once(0.0..end)
+            .chain(parameters)
+            .map(|r| random.random_range(r))
+            .collect()
     };
-    (0..count).map(|_| point()).map(|p| (p.clone(), reference(system, &p))).collect()
+    (0..count)
+        .map(|_| point())
+        .map(|p| (p.clone(), reference(system, &p)))
+        .collect()
 }
 
 /// L² error of û = u − u⁰ relative to û: stricter than relative to u, which û changes little.
-fn error<const N: usize>(system: &QuadraticSystem, u: &Separated, references: &[(Vec<f64>, [f64; N])]) -> f64 {
+fn error<const N: usize>(
+    system: &QuadraticSystem,
+    u: &Separated,
+    references: &[(Vec<f64>, [f64; N])],
+) -> f64 {
     let (mut squares, mut norm) = (0.0, 0.0);
     for (point, exact) in references {
         let start = system.initial_state(&point[1..]);
@@ -97,12 +116,19 @@ fn linear_weak_form(time: &Axis, k: &Axis, rule: Quadrature) -> (Canonical, usiz
     let shape = [time.len(), k.len()];
     let mut operator = Operator::zero(&shape);
     let derivative = Factor::Dense(time.matrix(Quadrature::Gauss(2), 0, 1, |_| 1.0));
-    operator.push(vec![derivative, Factor::Dense(k.matrix(rule, 0, 0, |k| k))]).unwrap();
+    operator
+        .push(vec![derivative, Factor::Dense(k.matrix(rule, 0, 0, |k| k))])
+        .unwrap();
     let mut source = Canonical::zeros(&shape);
     let load = time.load(Quadrature::Gauss(2), |_| 1.0);
-    source.push(1.0, &[load, k.load(rule, |k| 10.0 - k)]).unwrap();
+    source
+        .push(1.0, &[load, k.load(rule, |k| 10.0 - k)])
+        .unwrap();
     let metric = [time, k].map(|axis| DVector::from_column_slice(axis.weights()));
-    let params = PgdParams { tolerance: 1e-12, ..PgdParams::default() };
+    let params = PgdParams {
+        tolerance: 1e-12,
+        ..PgdParams::default()
+    };
     let (solution, report) = solve(&operator, &source, &metric, &params).unwrap();
     assert!(report.converged, "{report:?}");
     (solution, report.modes)
@@ -120,7 +146,12 @@ fn linear_elements_are_of_second_order() {
             let error = solution.at(&[time.len() - 1, j]) - linear_solution(10.0, *x);
             k.weights()[j] * error * error
         };
-        k.nodes().iter().enumerate().map(difference).sum::<f64>().sqrt()
+        k.nodes()
+            .iter()
+            .enumerate()
+            .map(difference)
+            .sum::<f64>()
+            .sqrt()
     };
     let errors = [40, 80, 160].map(error);
     for pair in errors.windows(2) {
@@ -169,12 +200,24 @@ fn coupled_system_with_unknown_initial_values() {
     let system = coupled_triple(&Axis::spectral(0.0, 1.0, 9).unwrap());
     let time = Axis::time(0.0, 0.5, 3, 4).unwrap();
     let references = references::<3>(&system, 0.5, 150);
-    for (coupling, modes, eventually) in [(Coupling::Monolithic, 24, 5e-4), (Coupling::Decoupled, 26, 1e-5)] {
-        let params = EvolutionParams { coupling, ..params(modes, 1e-7, 2) };
+    for (coupling, modes, eventually) in [
+        (Coupling::Monolithic, 24, 5e-4),
+        (Coupling::Decoupled, 26, 1e-5),
+    ] {
+        let params = EvolutionParams {
+            coupling,
+            ..params(modes, 1e-7, 2)
+        };
         let mut errors = Vec::new();
-        evolve(&system, &time, &params, |_, u| errors.push(error(&system, u, &references))).unwrap();
+        evolve(&system, &time, &params, |_, u| {
+            errors.push(error(&system, u, &references))
+        })
+        .unwrap();
         let last = errors[errors.len() - 1];
-        println!("{coupling:?}: {:.1e}, {:.1e}, {last:.1e}", errors[7], errors[23]);
+        println!(
+            "{coupling:?}: {:.1e}, {:.1e}, {last:.1e}",
+            errors[7], errors[23]
+        );
         assert!(errors[7] <= 2e-2 && errors[23] <= 5e-4, "{errors:?}");
         // The monolithic form is as good per function of one parameter, but not per enrichment: its
         // modes share those functions among the components. It takes some 40 to 1e-5.
@@ -210,7 +253,11 @@ fn kirchhoff_with_six_initial_velocities() {
     };
     let (solution, report) = evolve(&system, &time, &params, |_, _| ()).unwrap();
     let error = error(&system, &solution, &references);
-    println!("{} modes, error {error:.1e}, residual {:.1e}", report.modes, report.residuals.last().unwrap());
+    println!(
+        "{} modes, error {error:.1e}, residual {:.1e}",
+        report.modes,
+        report.residuals.last().unwrap()
+    );
     assert_eq!(report.singularity, None);
     assert!(error <= 1e-2, "{error:e}");
 }
