@@ -2,6 +2,7 @@
 //! with ranks that grow by rectangular maximal-volume submatrices (Mikhalev & Oseledets 2018).
 
 use super::axis::Axis;
+use super::orthogonal::column_basis;
 use super::tensor_train::{Core, TensorTrain};
 use crate::Error;
 use rand::{RngExt, SeedableRng};
@@ -244,18 +245,12 @@ fn error_at<F: FnMut(&[f64], &mut [f64])>(
 
 /// Rows of the matrix that span it well, and the weights W with `matrix ≈ W · matrix[rows]`.
 fn skeleton(matrix: &DMatrix<f64>, params: &CrossParams) -> (Vec<usize>, DMatrix<f64>) {
-    let svd = matrix.clone().svd(true, false);
-    let u = svd.u.expect("asked for");
-    let largest = svd.singular_values.amax();
     // What lies below rounding carries no information on which rows matter.
-    let kept: Vec<usize> = (0..svd.singular_values.len())
-        .filter(|i| svd.singular_values[*i] > 1e-13 * largest)
-        .collect();
-    if kept.is_empty() {
+    let (q, _) = column_basis(matrix, 1e-13);
+    if q.ncols() == 0 {
         // A zero matrix: any row represents it.
         return (vec![0], DMatrix::zeros(matrix.nrows(), 1));
     }
-    let q = u.select_columns(&kept);
     let mut rows = pivots(&q);
     let mut weights = q.clone() * inverse(&q.select_rows(&rows));
     // Swap rows while that enlarges the volume.

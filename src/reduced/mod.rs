@@ -12,6 +12,7 @@ mod file;
 pub mod identify;
 mod legendre;
 pub mod operator;
+mod orthogonal;
 pub mod pgd;
 pub mod quadratic;
 pub mod separated;

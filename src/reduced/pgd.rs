@@ -3,6 +3,7 @@
 
 use super::canonical::{Canonical, scale_rows};
 use super::operator::{Factor, Operator};
+use super::orthogonal::column_basis;
 use crate::Error;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -433,15 +434,9 @@ pub fn compress(
         for weight in weights.iter() {
             Error::check_positive("metric", *weight)?;
         }
-        // Gram–Schmidt with pivoting by the singular value decomposition of the scaled factors.
-        let svd = scale_rows(factors, &weights.map(f64::sqrt)).svd(true, false);
-        let u = svd.u.expect("asked for");
-        let largest = svd.singular_values.amax();
-        let kept: Vec<usize> = (0..svd.singular_values.len())
-            .filter(|i| svd.singular_values[*i] > 1e-14 * largest)
-            .collect();
-        let basis = u.select_columns(&kept);
-        coordinates.push(basis.tr_mul(&scale_rows(factors, &weights.map(f64::sqrt))));
+        let scaled = scale_rows(factors, &weights.map(f64::sqrt));
+        let (basis, columns) = column_basis(&scaled, 1e-14);
+        coordinates.push(columns);
         bases.push(scale_rows(&basis, &weights.map(|w| w.sqrt().recip())));
     }
     if coordinates.iter().any(|c| c.nrows() == 0) {
