@@ -7,7 +7,7 @@
 #[path = "../reduced_models/chart.rs"]
 mod chart;
 
-use chart::{COLORS, Mark, Panel, draw};
+use chart::{COLORS, Mark, Panel, SeriesLabelPosition, draw};
 use clap::Parser;
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
@@ -50,10 +50,28 @@ struct Arguments {
     json: bool,
 }
 
-const NAMES: [&str; 11] = ["C_T", "C_R", "A", "B", "mu", "u0", "v0", "omega0", "angle0", "x0", "y0"];
+const NAMES: [&str; 11] = [
+    "C_T", "C_R", "A", "B", "mu", "u0", "v0", "omega0", "angle0", "x0", "y0",
+];
 /// Coefficients of the track that is made up, and its start (dimensionless).
-const TRUTH: [f64; 11] = [1.2, std::f64::consts::PI, 1.4, 1.0, 0.2, 0.5, -0.2, 0.1, 0.4, 0.0, 0.0];
-const ACCURACY: Accuracy = Accuracy { relative: 1e-7, absolute: 1e-7, max_steps: 20_000 };
+const TRUTH: [f64; 11] = [
+    1.2,
+    std::f64::consts::PI,
+    1.4,
+    1.0,
+    0.2,
+    0.5,
+    -0.2,
+    0.1,
+    0.4,
+    0.0,
+    0.0,
+];
+const ACCURACY: Accuracy = Accuracy {
+    relative: 1e-7,
+    absolute: 1e-7,
+    max_steps: 20_000,
+};
 
 /// Times and rows (x, y, angle), dimensionless.
 struct Track {
@@ -74,24 +92,43 @@ fn read(text: &str, length: f64, speed: f64) -> Result<Track, String> {
     let mut lines = text.lines();
     let header = lines.next().unwrap_or_default().trim();
     if header != "t,x,y,angle" {
-        return Err(format!("--csv: the header is '{header}' instead of 't,x,y,angle'"));
+        return Err(format!(
+            "--csv: the header is '{header}' instead of 't,x,y,angle'"
+        ));
     }
-    let mut track = Track { times: Vec::new(), data: Vec::new() };
-    for (number, line) in lines.enumerate().filter(|(_, line)| !line.trim().is_empty()) {
+    let mut track = Track {
+        times: Vec::new(),
+        data: Vec::new(),
+    };
+    for (number, line) in lines
+        .enumerate()
+        .filter(|(_, line)| !line.trim().is_empty())
+    {
         let place = number + 2;
-        let row: Result<Vec<f64>, _> = line.split(',').map(|field| field.trim().parse::<f64>()).collect();
+        let row: Result<Vec<f64>, _> = line
+            .split(',')
+            .map(|field| field.trim().parse::<f64>())
+            .collect();
         let row = row.map_err(|error| format!("--csv: line {place}: {error}"))?;
         if row.len() != 4 || row.iter().any(|x| !x.is_finite()) {
             return Err(format!("--csv: line {place} is not four finite numbers"));
         }
         track.times.push(row[0] * speed / length);
-        track.data.extend([row[1] / length, row[2] / length, row[3]]);
+        track
+            .data
+            .extend([row[1] / length, row[2] / length, row[3]]);
     }
     if track.times.len() < 20 {
-        return Err(format!("--csv: {} rows are fewer than 20", track.times.len()));
+        return Err(format!(
+            "--csv: {} rows are fewer than 20",
+            track.times.len()
+        ));
     }
     if let Some(row) = track.times.windows(2).position(|pair| pair[0] >= pair[1]) {
-        return Err(format!("--csv: the times do not increase at line {}", row + 3));
+        return Err(format!(
+            "--csv: the times do not increase at line {}",
+            row + 3
+        ));
     }
     let first = track.times[0];
     track.times.iter_mut().for_each(|t| *t -= first);
@@ -110,7 +147,10 @@ fn check(arguments: &Arguments) -> Result<(), String> {
         }
     }
     if !(20..=100_000).contains(&arguments.frames) {
-        return Err(format!("--frames: {} is not within 20..=100000", arguments.frames));
+        return Err(format!(
+            "--frames: {} is not within 20..=100000",
+            arguments.frames
+        ));
     }
     Ok(())
 }
@@ -125,13 +165,16 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     check(arguments)?;
     let track = match &arguments.csv {
         Some(path) => {
-            let text = std::fs::read_to_string(path).map_err(|e| format!("--csv: {}: {e}", path.display()))?;
+            let text = std::fs::read_to_string(path)
+                .map_err(|e| format!("--csv: {}: {e}", path.display()))?;
             read(&text, arguments.length, arguments.speed)?
         }
         None => {
             let end = 20.0;
             let frames = arguments.frames;
-            let times: Vec<f64> = (0..frames).map(|i| end * i as f64 / (frames - 1) as f64).collect();
+            let times: Vec<f64> = (0..frames)
+                .map(|i| end * i as f64 / (frames - 1) as f64)
+                .collect();
             let mut data = vec![0.0; 3 * frames];
             model(arguments.inertia_ratio, &TRUTH, &times, &mut data);
             let mut random = rand_pcg::Pcg64::seed_from_u64(arguments.seed);
@@ -147,9 +190,17 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     let deviations = widths.repeat(track.times.len());
     let near = |x: f64, width: f64| (x - width, x + width);
     let ranges = [
-        (0.4, 2.5), (1.0, 6.0), (0.7, 2.5), (0.3, 2.0), (0.05, 0.6),
-        near(0.0, 2.0), near(0.0, 2.0), near(0.0, 1.5),
-        near(track.data[2], 0.3), near(track.data[0], 0.3), near(track.data[1], 0.3),
+        (0.4, 2.5),
+        (1.0, 6.0),
+        (0.7, 2.5),
+        (0.3, 2.0),
+        (0.05, 0.6),
+        near(0.0, 2.0),
+        near(0.0, 2.0),
+        near(0.0, 1.5),
+        near(track.data[2], 0.3),
+        near(track.data[0], 0.3),
+        near(track.data[1], 0.3),
     ];
     let params = FitParams {
         stages: vec![0.15, 0.3, 0.6, 1.0],
@@ -197,7 +248,10 @@ fn report(arguments: &Arguments, result: &Fit, seconds: f64) {
         println!("{all:#}");
         return;
     }
-    println!("parameter     value   deviation{}", if truth.is_some() { "     truth" } else { "" });
+    println!(
+        "parameter     value   deviation{}",
+        if truth.is_some() { "     truth" } else { "" }
+    );
     for (k, name) in NAMES.iter().enumerate() {
         let (value, deviation) = (result.parameters[k], result.deviations[k]);
         let truth = truth.map(|t| format!("{:10.4}", t[k])).unwrap_or_default();
@@ -209,9 +263,17 @@ fn report(arguments: &Arguments, result: &Fit, seconds: f64) {
     );
 }
 
-fn picture(arguments: &Arguments, track: &Track, result: &Fit, widths: [f64; 3]) -> Result<(), String> {
+fn picture(
+    arguments: &Arguments,
+    track: &Track,
+    result: &Fit,
+    widths: [f64; 3],
+) -> Result<(), String> {
     let pairs = |values: &[f64]| -> Vec<(f64, f64)> {
-        values.chunks_exact(3).map(|row| (row[0] * arguments.length, row[1] * arguments.length)).collect()
+        values
+            .chunks_exact(3)
+            .map(|row| (row[0] * arguments.length, row[1] * arguments.length))
+            .collect()
     };
     let mut path = Panel::new("track and fit", "x, m", "y, m");
     path.equal_axes = true;
@@ -220,30 +282,53 @@ fn picture(arguments: &Arguments, track: &Track, result: &Fit, widths: [f64; 3])
     let seconds = arguments.length / arguments.speed;
     let column = |values: &[f64], k: usize| -> Vec<(f64, f64)> {
         let values = values.iter().skip(k).step_by(3);
-        track.times.iter().map(|t| t * seconds).zip(values.copied()).collect()
+        track
+            .times
+            .iter()
+            .map(|t| t * seconds)
+            .zip(values.copied())
+            .collect()
     };
     let mut angle = Panel::new("angle", "time, s", "angle, rad");
     angle.add("data", COLORS[5], Mark::Dots, column(&track.data, 2));
     angle.add("fit", COLORS[1], Mark::Line, column(&result.prediction, 2));
-    let mut residual = Panel::new("data minus fit, in units of the noise", "time, s", "standard deviations");
+    let mut residual = Panel::new(
+        "data minus fit, in units of the noise",
+        "time, s",
+        "standard deviations",
+    );
     for (k, name) in ["x", "y", "angle"].into_iter().enumerate() {
-        let both = column(&track.data, k).into_iter().zip(column(&result.prediction, k));
+        let both = column(&track.data, k)
+            .into_iter()
+            .zip(column(&result.prediction, k));
         let points = both.map(|((t, d), (_, p))| (t, (d - p) / widths[k]));
         residual.add(name, COLORS[[0, 2, 1][k]], Mark::Dots, points.collect());
     }
-    let mut ratio = Panel::new("coefficients: value with ± 2 deviations, relative to it", "coefficient", "relative");
+    let mut ratio = Panel::new(
+        "coefficients: value with ± 2 deviations, relative to it",
+        "coefficient",
+        "relative",
+    );
+    ratio.legend = Some(SeriesLabelPosition::UpperLeft);
     for k in 0..5 {
         let (value, deviation) = (result.parameters[k], result.deviations[k]);
         let bar = [-2.0, 0.0, 2.0].map(|s| (k as f64 + 1.0, 1.0 + s * deviation / value));
-        ratio.add(&format!("{}: {}", k + 1, NAMES[k]), COLORS[k], Mark::LineAndDots, bar.to_vec());
+        ratio.add(
+            &format!("{}: {}", k + 1, NAMES[k]),
+            COLORS[k],
+            Mark::LineAndDots,
+            bar.to_vec(),
+        );
     }
     if arguments.csv.is_none() {
         let truth = (0..5).map(|k| (k as f64 + 1.0, TRUTH[k] / result.parameters[k]));
         ratio.add("truth", chart::BLACK, Mark::Dots, truth.collect());
     }
-    std::fs::create_dir_all(&arguments.out).map_err(|e| format!("--out: {}: {e}", arguments.out.display()))?;
+    std::fs::create_dir_all(&arguments.out)
+        .map_err(|e| format!("--out: {}: {e}", arguments.out.display()))?;
     let file = arguments.out.join("identify.svg");
-    draw(&file, 2, &[path, angle, residual, ratio]).map_err(|e| format!("--out: {}: {e}", file.display()))
+    draw(&file, 2, &[path, angle, residual, ratio])
+        .map_err(|e| format!("--out: {}: {e}", file.display()))
 }
 
 fn main() -> ExitCode {

@@ -5,6 +5,7 @@ use plotters::style::full_palette;
 use std::error::Error;
 use std::path::Path;
 
+pub use plotters::chart::SeriesLabelPosition;
 pub use plotters::style::BLACK;
 
 pub const COLORS: [RGBColor; 6] = [
@@ -38,17 +39,28 @@ pub struct Panel {
     pub log_x: bool,
     pub log_y: bool,
     pub equal_axes: bool,
+    pub legend: Option<SeriesLabelPosition>,
     pub series: Vec<Series>,
 }
 
 impl Panel {
     pub fn new(title: &str, x: &str, y: &str) -> Self {
-        Self { title: title.into(), x: x.into(), y: y.into(), ..Self::default() }
+        Self {
+            title: title.into(),
+            x: x.into(),
+            y: y.into(),
+            ..Self::default()
+        }
     }
 
     /// Adds a series; an empty label keeps it out of the legend.
     pub fn add(&mut self, label: &str, color: RGBColor, mark: Mark, points: Vec<(f64, f64)>) {
-        self.series.push(Series { label: label.into(), points, color, mark });
+        self.series.push(Series {
+            label: label.into(),
+            points,
+            color,
+            mark,
+        });
     }
 }
 
@@ -57,18 +69,28 @@ fn power(exponent: f64) -> String {
         return String::new();
     }
     let exponent = exponent.round();
-    if (0.0..4.0).contains(&exponent) { format!("{}", 10_f64.powf(exponent)) } else { format!("1e{exponent}") }
+    if (0.0..4.0).contains(&exponent) {
+        format!("{}", 10_f64.powf(exponent))
+    } else {
+        format!("1e{exponent}")
+    }
 }
 
 fn number(x: f64, span: f64) -> String {
     let decimals = (1.0 - span.log10().floor()).clamp(0.0, 4.0) as usize;
     let text = format!("{x:.decimals$}");
-    if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+    if decimals > 0 {
+        text.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        text
+    }
 }
 
 /// The ends of the values with a margin; whole decades on a logarithmic axis.
 fn range(values: impl Iterator<Item = f64>, log: bool) -> (f64, f64) {
-    let (low, high) = values.filter(|v| v.is_finite()).fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)));
+    let (low, high) = values
+        .filter(|v| v.is_finite())
+        .fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)));
     if low > high {
         return (0.0, 1.0);
     }
@@ -88,10 +110,21 @@ pub fn draw(path: &Path, columns: usize, panels: &[Panel]) -> Result<(), Box<dyn
     root.fill(&WHITE)?;
     for (area, panel) in root.split_evenly((rows, columns)).iter().zip(panels) {
         let map = |(x, y): (f64, f64)| {
-            (if panel.log_x { x.log10() } else { x }, if panel.log_y { y.log10() } else { y })
+            (
+                if panel.log_x { x.log10() } else { x },
+                if panel.log_y { y.log10() } else { y },
+            )
         };
-        let all = || panel.series.iter().flat_map(|s| s.points.iter().map(|p| map(*p)));
-        let (mut x, mut y) = (range(all().map(|p| p.0), panel.log_x), range(all().map(|p| p.1), panel.log_y));
+        let all = || {
+            panel
+                .series
+                .iter()
+                .flat_map(|s| s.points.iter().map(|p| map(*p)))
+        };
+        let (mut x, mut y) = (
+            range(all().map(|p| p.0), panel.log_x),
+            range(all().map(|p| p.1), panel.log_y),
+        );
         if panel.equal_axes {
             // The plot area is about 430 by 310 pixels.
             let scale = ((x.1 - x.0) / 430.0).max((y.1 - y.0) / 310.0);
@@ -112,22 +145,47 @@ pub fn draw(path: &Path, columns: usize, panels: &[Panel]) -> Result<(), Box<dyn
             .configure_mesh()
             .light_line_style(TRANSPARENT)
             .bold_line_style(BLACK.mix(0.12))
-            .x_labels(if panel.log_x { 2 + (x.1 - x.0) as usize } else { 7 })
-            .y_labels(if panel.log_y { 2 + (y.1 - y.0) as usize } else { 7 })
+            .x_labels(if panel.log_x {
+                2 + (x.1 - x.0) as usize
+            } else {
+                7
+            })
+            .y_labels(if panel.log_y {
+                2 + (y.1 - y.0) as usize
+            } else {
+                7
+            })
             .x_desc(&panel.x)
             .y_desc(&panel.y)
             .label_style(("sans-serif", 14))
             .axis_desc_style(("sans-serif", 15))
-            .x_label_formatter(&|v| if panel.log_x { power(*v) } else { number(*v, x.1 - x.0) })
-            .y_label_formatter(&|v| if panel.log_y { power(*v) } else { number(*v, y.1 - y.0) })
+            .x_label_formatter(&|v| {
+                if panel.log_x {
+                    power(*v)
+                } else {
+                    number(*v, x.1 - x.0)
+                }
+            })
+            .y_label_formatter(&|v| {
+                if panel.log_y {
+                    power(*v)
+                } else {
+                    number(*v, y.1 - y.0)
+                }
+            })
             .draw()?;
         for series in &panel.series {
             let color = series.color;
-            let points: Vec<(f64, f64)> =
-                series.points.iter().map(|p| map(*p)).filter(|p| p.0.is_finite() && p.1.is_finite()).collect();
+            let points: Vec<(f64, f64)> = series
+                .points
+                .iter()
+                .map(|p| map(*p))
+                .filter(|p| p.0.is_finite() && p.1.is_finite())
+                .collect();
             let mut label = (!series.label.is_empty()).then_some(series.label.clone());
             if series.mark != Mark::Dots {
-                let drawn = chart.draw_series(LineSeries::new(points.clone(), color.stroke_width(2)))?;
+                let drawn =
+                    chart.draw_series(LineSeries::new(points.clone(), color.stroke_width(2)))?;
                 if let Some(label) = label.take() {
                     drawn.label(label).legend(move |(x, y)| {
                         PathElement::new(vec![(x, y), (x + 18, y)], color.stroke_width(2))
@@ -136,16 +194,26 @@ pub fn draw(path: &Path, columns: usize, panels: &[Panel]) -> Result<(), Box<dyn
             }
             if series.mark != Mark::Line {
                 let radius = if points.len() > 100 { 1 } else { 3 };
-                let dots = points.iter().map(|p| Circle::new(*p, radius, color.filled()));
+                let dots = points
+                    .iter()
+                    .map(|p| Circle::new(*p, radius, color.filled()));
                 let drawn = chart.draw_series(dots)?;
                 if let Some(label) = label.take() {
-                    drawn.label(label).legend(move |(x, y)| Circle::new((x + 9, y), 3, color.filled()));
+                    drawn
+                        .label(label)
+                        .legend(move |(x, y)| Circle::new((x + 9, y), 3, color.filled()));
                 }
             }
         }
         if panel.series.iter().any(|s| !s.label.is_empty()) {
             chart
                 .configure_series_labels()
+                .position(
+                    panel
+                        .legend
+                        .clone()
+                        .unwrap_or(SeriesLabelPosition::UpperRight),
+                )
                 .label_font(("sans-serif", 14))
                 .background_style(WHITE.mix(0.85))
                 .border_style(BLACK.mix(0.25))

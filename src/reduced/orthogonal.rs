@@ -28,8 +28,12 @@ mod tests {
     #[test]
     fn the_basis_spans_the_columns() {
         for (rows, columns, rank) in [(9, 4, 2), (4, 9, 3), (6, 6, 6), (5, 3, 0)] {
-            let left = DMatrix::from_fn(rows, rank, |i, j| ((i * i * 7 + i * j * 5 + j * 3) as f64).sin());
-            let right = DMatrix::from_fn(rank, columns, |i, j| ((j * j * 5 + i * j * 3 + i * 11) as f64).cos());
+            let left = DMatrix::from_fn(rows, rank, |i, j| {
+                ((i * i * 7 + i * j * 5 + j * 3) as f64).sin()
+            });
+            let right = DMatrix::from_fn(rank, columns, |i, j| {
+                ((j * j * 5 + i * j * 3 + i * 11) as f64).cos()
+            });
             let matrix = left * right;
             let (q, c) = column_basis(&matrix, 1e-13);
             assert_eq!(q.ncols(), rank);
