@@ -8,6 +8,11 @@ use std::path::Path;
 pub use plotters::chart::SeriesLabelPosition;
 pub use plotters::style::BLACK;
 
+/// The backend rounds to whole pixels: drawn larger than it is looked at, lines stay smooth.
+const SCALE: u32 = 3;
+/// Length of a line in the legend.
+const LEGEND: i32 = 18 * SCALE as i32;
+
 pub const COLORS: [RGBColor; 6] = [
     full_palette::RED_700,
     full_palette::BLUE_700,
@@ -104,7 +109,7 @@ fn range(values: impl Iterator<Item = f64>, log: bool) -> (f64, f64) {
 /// Draws the panels row by row into `path`.
 pub fn draw(path: &Path, columns: usize, panels: &[Panel]) -> Result<(), Box<dyn Error>> {
     let rows = panels.len().div_ceil(columns);
-    let (width, height) = (520, 400);
+    let (width, height) = (520 * SCALE as usize, 400 * SCALE as usize);
     let size = ((columns * width) as u32, (rows * height) as u32);
     let root = SVGBackend::new(path, size).into_drawing_area();
     root.fill(&WHITE)?;
@@ -135,11 +140,11 @@ pub fn draw(path: &Path, columns: usize, panels: &[Panel]) -> Result<(), Box<dyn
             (x, y) = (widen(x, 430.0), widen(y, 310.0));
         }
         let mut chart = ChartBuilder::on(area)
-            .caption(&panel.title, ("sans-serif", 19))
-            .margin(10)
-            .margin_right(18)
-            .x_label_area_size(42)
-            .y_label_area_size(62)
+            .caption(&panel.title, ("sans-serif", 19 * SCALE))
+            .margin(10 * SCALE)
+            .margin_right(18 * SCALE)
+            .x_label_area_size(42 * SCALE)
+            .y_label_area_size(62 * SCALE)
             .build_cartesian_2d(x.0..x.1, y.0..y.1)?;
         chart
             .configure_mesh()
@@ -157,8 +162,8 @@ pub fn draw(path: &Path, columns: usize, panels: &[Panel]) -> Result<(), Box<dyn
             })
             .x_desc(&panel.x)
             .y_desc(&panel.y)
-            .label_style(("sans-serif", 14))
-            .axis_desc_style(("sans-serif", 15))
+            .label_style(("sans-serif", 14 * SCALE))
+            .axis_desc_style(("sans-serif", 15 * SCALE))
             .x_label_formatter(&|v| {
                 if panel.log_x {
                     power(*v)
@@ -184,24 +189,29 @@ pub fn draw(path: &Path, columns: usize, panels: &[Panel]) -> Result<(), Box<dyn
                 .collect();
             let mut label = (!series.label.is_empty()).then_some(series.label.clone());
             if series.mark != Mark::Dots {
-                let drawn =
-                    chart.draw_series(LineSeries::new(points.clone(), color.stroke_width(2)))?;
+                let drawn = chart.draw_series(LineSeries::new(
+                    points.clone(),
+                    color.stroke_width(2 * SCALE),
+                ))?;
                 if let Some(label) = label.take() {
                     drawn.label(label).legend(move |(x, y)| {
-                        PathElement::new(vec![(x, y), (x + 18, y)], color.stroke_width(2))
+                        PathElement::new(
+                            vec![(x, y), (x + LEGEND, y)],
+                            color.stroke_width(2 * SCALE),
+                        )
                     });
                 }
             }
             if series.mark != Mark::Line {
-                let radius = if points.len() > 100 { 1 } else { 3 };
+                let radius = if points.len() > 100 { SCALE } else { 3 * SCALE };
                 let dots = points
                     .iter()
                     .map(|p| Circle::new(*p, radius, color.filled()));
                 let drawn = chart.draw_series(dots)?;
                 if let Some(label) = label.take() {
-                    drawn
-                        .label(label)
-                        .legend(move |(x, y)| Circle::new((x + 9, y), 3, color.filled()));
+                    drawn.label(label).legend(move |(x, y)| {
+                        Circle::new((x + LEGEND / 2, y), 3 * SCALE, color.filled())
+                    });
                 }
             }
         }
@@ -214,7 +224,9 @@ pub fn draw(path: &Path, columns: usize, panels: &[Panel]) -> Result<(), Box<dyn
                         .clone()
                         .unwrap_or(SeriesLabelPosition::UpperRight),
                 )
-                .label_font(("sans-serif", 14))
+                .legend_area_size(26 * SCALE)
+                .margin(5 * SCALE)
+                .label_font(("sans-serif", 14 * SCALE))
                 .background_style(WHITE.mix(0.85))
                 .border_style(BLACK.mix(0.25))
                 .draw()?;

@@ -7,7 +7,7 @@ use indicatif::ProgressBar;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d_immersed::reduced::axis::Axis;
-use rapier3d_immersed::reduced::cross::CrossParams;
+use rapier3d_immersed::reduced::cross::{CrossParams, cross};
 use rapier3d_immersed::reduced::dormand_prince::{Accuracy, integrate};
 use rapier3d_immersed::reduced::falling_plate::FallingPlate;
 use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
@@ -23,6 +23,9 @@ const ACCURACY: Accuracy = Accuracy {
 };
 const HORIZONS: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
 const STEP: f64 = 0.25;
+
+/// Horizon and error.
+type Errors = Vec<(f64, f64)>;
 
 fn plate(p: &[f64]) -> FallingPlate {
     FallingPlate::with_coefficients(p[3], [p[0], p[1], p[2], 1.0, 0.2])
@@ -93,7 +96,7 @@ impl Truth {
     }
 
     /// Error at each horizon relative to the standard deviation of the position over the domain.
-    fn errors(&self, mut positions: impl FnMut(&[f64]) -> Vec<f64>) -> Vec<(f64, f64)> {
+    fn errors(&self, mut positions: impl FnMut(&[f64]) -> Vec<f64>) -> Errors {
         let all: Vec<Vec<f64>> = self.points.iter().map(|p| positions(p)).collect();
         let error = |(h, horizon): (usize, &f64)| {
             let exact: Vec<f64> = self.positions.iter().map(|p| p[h]).collect();
@@ -111,7 +114,7 @@ impl Truth {
 }
 
 /// One surrogate of whole trajectories per horizon, each with the same budget.
-fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
+fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
     let mut errors = Vec::new();
     for (h, end) in HORIZONS.into_iter().enumerate() {
         let time = Axis::elements(0.0, end, (end / 2.0).ceil() as usize, 6)?;
@@ -135,7 +138,8 @@ fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Vec<(f64, f64)>, Box
     Ok(errors)
 }
 
-fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Vec<(f64, f64)>, f64), Box<dyn Error>> {
+/// The errors, and the microseconds of a step.
+fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Errors, f64), Box<dyn Error>> {
     let model = |s: &[f64], p: &[f64], change: &mut [f64]| {
         let mut end = [s[0], s[1], s[2], s[3], 0.0, 0.0];
         plate(p).advance(&mut end, STEP, ACCURACY);
@@ -178,10 +182,10 @@ fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Vec<(f64, f64)>, f64), 
 }
 
 /// The rates themselves as a tensor train, integrated as they are.
-fn rates(range: (f64, f64), truth: &Truth) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
-    let model = |s: &[f64], p: &[f64], out: &mut [f64]| {
+fn rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
+    let model = |x: &[f64], out: &mut [f64]| {
         let mut rate = [0.0; 6];
-        plate(p).rate(&[s[0], s[1], s[2], s[3], 0.0, 0.0], &mut rate);
+        plate(&x[4..]).rate(&[x[0], x[1], x[2], x[3], 0.0, 0.0], &mut rate);
         out.copy_from_slice(&rate[..5]);
     };
     let params = CrossParams {
@@ -191,7 +195,9 @@ fn rates(range: (f64, f64), truth: &Truth) -> Result<Vec<(f64, f64)>, Box<dyn Er
         max_rank: 60,
         ..CrossParams::default()
     };
-    let (map, _) = FlowMap::bake(1.0, state()?, parameters(range, 4)?, 1, model, &params)?;
+    let axes = [state()?, parameters(range, 4)?].concat();
+    let (train, _) = cross(axes, 5, model, &params)?;
+    let train = train.rounded(1e-6);
     let loose = Accuracy {
         relative: 1e-5,
         absolute: 1e-5,
@@ -204,7 +210,8 @@ fn rates(range: (f64, f64), truth: &Truth) -> Result<Vec<(f64, f64)>, Box<dyn Er
         let mut now = 0.0;
         let mut rate = |_: f64, x: &[f64], out: &mut [f64]| {
             let (inside, sign) = reduced(x);
-            map.change(&inside, &p[..4], out, &mut scratch);
+            let point = [&inside[..], &p[..4]].concat();
+            train.evaluate_into(&point, out, &mut scratch);
             out[0] *= sign;
             out[1] *= sign;
         };

@@ -113,7 +113,7 @@ pub fn linear_problem(path: &Path, _: &ProgressBar) -> Outcome {
             Mark::Dots,
             sampled(11, 0.0, 10.0, |t| u.evaluate(&[t, k])[0]),
         );
-        let errors = sampled(41, 0.0, 10.0, |t| off(t).max(1e-17));
+        let errors = sampled(41, 0.0, 10.0, off);
         worst = errors.iter().fold(worst, |w, (_, e)| w.max(*e));
         error.add(&format!("k = {k}"), *color, Mark::Line, errors);
     }
@@ -313,7 +313,7 @@ pub fn kirchhoff(path: &Path, _: &ProgressBar) -> Outcome {
     let checks = Checks::new(&system, 1.0, 300);
     let mut history = Vec::new();
     let clock = Instant::now();
-    let (u, report) = evolve(&system, &time, &params(28, Coupling::Decoupled), |n, u| {
+    let (u, report) = evolve(&system, &time, &params(45, Coupling::Decoupled), |n, u| {
         history.push((n as f64, checks.error(u)));
     })?;
     let seconds = clock.elapsed().as_secs_f64();

@@ -6,10 +6,11 @@
 //! so that the Galerkin projection onto separated functions is nearly the best in L², which it is
 //! not for the bare time derivative.
 
+use super::alternating::{enrich, project, update};
 use super::axis::Axis;
 use super::canonical::{Canonical, scale_rows};
 use super::operator::{Factor, Operator};
-use super::pgd::{PgdParams, enrich, project, update};
+use super::pgd::PgdParams;
 use super::quadratic::{QuadraticSystem, RateTerm, Singularity};
 use super::separated::Separated;
 use crate::Error;

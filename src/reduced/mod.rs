@@ -1,5 +1,49 @@
-//! Reduced models by separated representation (thesis chapter 6).
+//! Reduced models by separated representation (thesis chapter 6): solutions of parametric problems
+//! as sums of products of functions of one coordinate, baked once and evaluated in a microsecond.
+//!
+//! ```text
+//! Axis ──► Operator, Canonical ──► pgd::solve ─────┐
+//!     └──► QuadraticSystem ──────► evolve ─────────┼──► Separated ──► evaluate, grid
+//!     └──► any function ─────────► cross ──► TensorTrain, FlowMap, TrajectorySurrogate
+//! model and track ───────────────► identify::fit ──► parameters with uncertainty
+//! ```
+//!
+//! * [`pgd`] is the thesis's algorithm for linear problems of any number of dimensions: greedy
+//!   enrichment by alternating directions and projection, with updates of all terms, which bring
+//!   them close to the best separation of their number.
+//! * [`evolution`] takes coupled systems, quadratic in the state, whose parameters and initial
+//!   values are coordinates: by Newton's linearisation, all components together or one by one.
+//! * [`cross`](mod@cross) and [`surrogate`] are for dynamics that are no polynomials.
+//! * [`identify`] finds the parameters of a model from a measured track.
+//!
+//! **Where it fails.** A solution that becomes infinite within the domain has no separated
+//! representation: [`evolution::evolve`] looks for such points and reports them. Trajectories
+//! over a range of parameters in which the motion pattern changes are not separable over times in
+//! which the patterns part. On a falling plate, with I* from 1.1 to 1.4 across the transition from
+//! flutter to tumbling, the error relative to the spread of the positions was 6e-7 at T = 2, 1e-2
+//! at 10 and 0.5 at 20. The short-time flow map over the same domain, iterated, kept within 2e-2
+//! until T = 40; so did separated rates, which are integrated as they are (3e-2). Both need some 10⁵
+//! samples and ten microseconds or more per step, so they pay only for dynamics that cost more.
+//! The kinks of the quasi-steady forces at rest limit them to errors of about 1e-3.
+//!
+//! ```
+//! use rapier3d_immersed::reduced::axis::Axis;
+//! use rapier3d_immersed::reduced::evolution::{EvolutionParams, evolve};
+//! use rapier3d_immersed::reduced::example_systems::{falling_body, falling_body_solution};
+//!
+//! // Free fall against quadratic drag, for every drag coefficient from 0.5 to 2 at once.
+//! let drag = Axis::spectral(0.5, 2.0, 16)?;
+//! let time = Axis::time(0.0, 1.0, 16, 3)?;
+//! let mut params = EvolutionParams::default();
+//! params.pgd.tolerance = 1e-5;
+//! let (velocity, report) = evolve(&falling_body(drag), &time, &params, |_, _| ())?;
+//! assert!(report.converged && report.modes <= 6);
+//! let error = velocity.evaluate(&[0.3, 1.2])[0] - falling_body_solution(0.3, 1.2);
+//! assert!(error.abs() < 1e-4);
+//! # Ok::<(), rapier3d_immersed::Error>(())
+//! ```
 
+mod alternating;
 pub mod axis;
 pub mod canonical;
 pub mod cross;

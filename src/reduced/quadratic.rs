@@ -143,7 +143,7 @@ impl QuadraticSystem {
         let mut state = self.initial_state(parameters);
         let rate = |_: f64, x: &[f64], out: &mut [f64]| self.rate(parameters, x, out);
         let reached = integrate(rate, 0.0, time, &mut state, accuracy);
-        if reached < time || state.iter().any(|x| !(x.abs() < 1e12)) {
+        if reached < time || !state.iter().all(|x| x.abs() < 1e12) {
             return Err(Singularity {
                 parameters: parameters.to_vec(),
                 time: reached,

@@ -271,9 +271,10 @@ impl Evaluator<'_> {
             value.fill(0.0);
             return;
         }
-        for axis in 1..point.len() {
-            let (first, count) = separated.axes[axis].basis(point[axis], &mut self.basis);
-            let rows = &separated.factors[axis][first * modes..(first + count) * modes];
+        let later = separated.axes.iter().zip(&separated.factors).zip(point);
+        for ((axis, factor), x) in later.skip(1) {
+            let (first, count) = axis.basis(*x, &mut self.basis);
+            let rows = &factor[first * modes..(first + count) * modes];
             interpolate(&self.basis[..count], rows, &mut self.sums);
             for (product, sum) in self.products.iter_mut().zip(&self.sums) {
                 *product *= sum;
