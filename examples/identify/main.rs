@@ -309,7 +309,7 @@ fn picture(
         "coefficient",
         "relative",
     );
-    ratio.legend = Some(SeriesLabelPosition::UpperLeft);
+    ratio.legend = Some(SeriesLabelPosition::LowerLeft);
     for k in 0..5 {
         let (value, deviation) = (result.parameters[k], result.deviations[k]);
         let bar = [-2.0, 0.0, 2.0].map(|s| (k as f64 + 1.0, 1.0 + s * deviation / value));
