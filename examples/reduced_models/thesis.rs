@@ -87,7 +87,7 @@ impl<'a> Checks<'a> {
 
 /// Thesis Figs. 6.2, 6.3.
 pub fn linear_problem(path: &Path, _: &ProgressBar) -> Outcome {
-    let k = Axis::spectral(1.0, 10.0, 45)?;
+    let k = Axis::spectral(1.0, 10.0, 52)?;
     let time = Axis::time(0.0, 10.0, 4, 2)?;
     let (u, report) = evolve(
         &linear(k.clone()),

@@ -102,6 +102,9 @@ impl Projections {
 
 /// The projection step (thesis (6.15)): the coefficients of all terms, their factors kept.
 pub(crate) fn project(operator: &Operator, source: &Canonical, x: &mut Canonical) {
+    if x.rank() == 0 {
+        return;
+    }
     let projections = Projections::new(operator, source, x);
     let matrices = projections.operator_without(None);
     let mut matrix = DMatrix::zeros(x.rank(), x.rank());
@@ -128,6 +131,9 @@ pub(crate) fn update(
     causal: &[usize],
     x: &mut Canonical,
 ) {
+    if x.rank() == 0 {
+        return;
+    }
     let mut projections = Projections::new(operator, source, x);
     for (dimension, weights) in metric.iter().enumerate() {
         let blocks = if dimension == 0 { causal } else { &[] };

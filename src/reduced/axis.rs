@@ -263,9 +263,14 @@ impl Axis {
         self.mesh.family
     }
 
-    /// Whether the functions of this axis vanish at its start.
-    pub fn vanishes_at_start(&self) -> bool {
-        self.mesh.zero_start
+    /// An error if functions on this axis have to vanish at an end.
+    pub(crate) fn check_free_ends(&self) -> Result<(), Error> {
+        let nodes = self.mesh.degree * (self.mesh.breaks.len() - 1) + 1;
+        Error::check_length(
+            "nodes of a parameter's axis, which needs both ends",
+            nodes,
+            self.len(),
+        )
     }
 
     /// For each element in turn, how many nodes lie in it and not in the ones before: what a

@@ -94,7 +94,7 @@ impl<F: FnMut(&[f64], &mut [f64])> Sampler<'_, F> {
 /// Learns `function(point, outputs)` on the nodes of `axes`.
 ///
 /// # Errors
-/// If there are no axes or outputs, more than 65 535 nodes or outputs, a parameter out of range,
+/// If there are no axes or outputs, an axis leaves an end out, more than 65 535 nodes or outputs, a parameter out of range,
 /// or a sample that is not finite.
 pub fn cross(
     axes: Vec<Axis>,
@@ -104,6 +104,7 @@ pub fn cross(
 ) -> Result<(TensorTrain, CrossReport), Error> {
     Error::check_positive("number of axes", axes.len() as f64)?;
     Error::check_positive("outputs", outputs as f64)?;
+    axes.iter().try_for_each(Axis::check_free_ends)?;
     Error::check_positive("max_rank", params.max_rank as f64)?;
     Error::check_positive("max_sweeps", params.max_sweeps as f64)?;
     Error::check_positive("check_points", params.check_points as f64)?;
@@ -385,6 +386,8 @@ mod tests {
         let params = CrossParams::default();
         assert!(cross(vec![], 1, zero, &params).is_err());
         assert!(cross(axes.clone(), 0, zero, &params).is_err());
+        let ends = axes.clone().into_iter().map(Axis::with_zero_end).collect();
+        assert!(cross(ends, 1, zero, &params).is_err());
         let nan = |x: &[f64], out: &mut [f64]| out[0] = if x[0] > 0.5 { f64::NAN } else { 1.0 };
         assert!(matches!(
             cross(axes, 1, nan, &params),

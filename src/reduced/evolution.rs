@@ -3,8 +3,8 @@
 //!
 //! The unknown û = u − u⁰ solves û = ∫₀ᵗ f(u⁰ + û; parameters) dt, collocated in time at Radau
 //! points. In this integral form the linearised operator is the identity and a Volterra operator,
-//! so that the Galerkin projection onto separated functions is nearly the best in L², which it is
-//! not for the bare time derivative.
+//! small over short times, so that the Galerkin projection onto separated functions is close to the
+//! best in L²; the skew derivative itself gives no such bound.
 
 use super::alternating::{enrich, project, update};
 use super::axis::Axis;
@@ -426,6 +426,9 @@ impl<'a> Problem<'a> {
                     norm += w * value[t] * value[t];
                 }
             }
+        }
+        if squares == 0.0 {
+            return 0.0;
         }
         (squares / norm).sqrt()
     }

@@ -19,12 +19,22 @@
 //! **Where it fails.** A solution that becomes infinite within the domain has no separated
 //! representation: [`evolution::evolve`] looks for such points and reports them. Trajectories
 //! over a range of parameters in which the motion pattern changes are not separable over times in
-//! which the patterns part. On a falling plate, with I* from 1.1 to 1.4 across the transition from
-//! flutter to tumbling, the error relative to the spread of the positions was 6e-7 at T = 2, 1e-2
-//! at 10 and 0.5 at 20. The short-time flow map over the same domain, iterated, kept within 2e-2
-//! until T = 40; so did separated rates, which are integrated as they are (3e-2). Both need some 10⁵
-//! samples and ten microseconds or more per step, so they pay only for dynamics that cost more.
-//! The kinks of the quasi-steady forces at rest limit them to errors of about 1e-3.
+//! which the patterns part. Measured on a falling plate over five parameters (three coefficients
+//! ± 5 %, density ratio, release angle), as the error of the horizontal position relative to its
+//! spread over the domain:
+//!
+//! | | T = 2 | 10 | 20 | 40 |
+//! |---|---|---|---|---|
+//! | across flutter–tumble: separated trajectory | 6e-7 | 1e-2 | .50 | .69 |
+//! | … separated flow map over 0.25, iterated | 3e-3 | 5e-3 | 1e-2 | 2e-2 |
+//! | … separated rates, integrated | 3e-3 | 4e-3 | 1e-2 | 3e-2 |
+//! | flutter only: separated trajectory | 4e-7 | 3e-2 | .07 | .24 |
+//! | … separated flow map over 0.25, iterated | 1e-2 | .09 | .08 | .26 |
+//! | … separated rates, integrated | 5e-4 | 8e-4 | 1e-3 | 3e-3 |
+//!
+//! The kinks of quasi-steady forces at rest and at zero spin limit both short-time forms. They take
+//! some 10⁵ samples and ten microseconds or more per step, more than the plate's own rates cost:
+//! they pay only for dynamics that cost more (`examples/reduced_models` draws this).
 //!
 //! ```
 //! use rapier3d_immersed::reduced::axis::Axis;

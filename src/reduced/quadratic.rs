@@ -86,6 +86,7 @@ impl QuadraticSystem {
             Ok(())
         };
         for axis in &self.parameters {
+            axis.check_free_ends()?;
             for weight in axis.weights() {
                 Error::check_positive("weight of a parameter's node", *weight)?;
             }

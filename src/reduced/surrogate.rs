@@ -38,14 +38,13 @@ impl TrajectorySurrogate {
         let outputs = times.len() * components;
         let (train, report) = cross(parameters, outputs, |p, out| model(p, &times, out), params)?;
         let train = train.rounded(0.1 * params.tolerance);
-        Ok((
-            Self {
-                time,
-                components,
-                train,
-            },
-            report,
-        ))
+        let surrogate = Self {
+            time,
+            components,
+            train,
+        };
+        surrogate.check()?;
+        Ok((surrogate, report))
     }
 
     /// The ranges of the parameters.
@@ -99,6 +98,8 @@ impl TrajectorySurrogate {
 /// Its error is one of each step, as of an integrator, so patterns and their statistics survive
 /// where [`TrajectorySurrogate`] fails; two neighbouring chaotic trajectories part as ever. It
 /// costs Σ rank² · nodes per step, and pays only where the dynamics it stands for cost more.
+///
+/// A state outside of the axes changes as at their nearer end: bake them as wide as the motion is.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -113,8 +114,7 @@ pub struct FlowMap {
 impl FlowMap {
     /// Learns `model(state, parameters, change)`, which writes what `step` seconds change: first
     /// that of every component of the state, then of any further quantities (such as the
-    /// position, which the rates do not depend on). Returns the map, the report and the axes'
-    /// order: state, then parameters.
+    /// position, which the rates do not depend on).
     ///
     /// # Errors
     /// As [`cross`]; `step` must be positive.
@@ -135,14 +135,13 @@ impl FlowMap {
         };
         let (train, report) = cross(axes, components + further, change, params)?;
         let train = train.rounded(0.1 * params.tolerance);
-        Ok((
-            Self {
-                step,
-                components,
-                train,
-            },
-            report,
-        ))
+        let map = Self {
+            step,
+            components,
+            train,
+        };
+        map.check()?;
+        Ok((map, report))
     }
 
     /// How long one step is.

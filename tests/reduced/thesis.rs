@@ -262,6 +262,42 @@ fn kirchhoff_with_six_initial_velocities() {
     assert!(error <= 1e-2, "{error:e}");
 }
 
+/// Degenerate systems are no trouble: one without parameters, one that rests, one whose rates have
+/// no part in a component.
+#[test]
+fn degenerate_systems() {
+    let time = Axis::time(0.0, 1.0, 4, 3).unwrap();
+    let mut system = coupled_triple(&Axis::spectral(0.0, 1.0, 4).unwrap());
+    system.rates.clear();
+    let (rest, report) = evolve(&system, &time, &params(3, 1e-9, 1), |_, _| ()).unwrap();
+    assert!(report.converged && report.modes == 0, "{report:?}");
+    for (value, start) in rest
+        .evaluate(&[0.7, 0.1, 0.2, 0.3])
+        .iter()
+        .zip([0.1, 0.2, 0.3])
+    {
+        assert!((value - start).abs() < 1e-14);
+    }
+    // u̇ = 1 − u², alone: tanh t.
+    let mut system = falling_body(Axis::spectral(0.5, 2.0, 2).unwrap());
+    system.parameters.clear();
+    system.components = 2;
+    system.rates[0].coefficient = 1.0;
+    system.rates[1].coefficient = -1.0;
+    system.rates[1].parameters.clear();
+    for coupling in [Coupling::Monolithic, Coupling::Decoupled] {
+        let params = EvolutionParams {
+            coupling,
+            ..params(6, 1e-10, 3)
+        };
+        let (u, report) = evolve(&system, &time, &params, |_, _| ()).unwrap();
+        assert!(report.converged, "{report:?}");
+        // Radau IIA of three stages, steps of 1/4: fifth order at their ends.
+        assert!((u.evaluate(&[1.0])[0] - 1.0_f64.tanh()).abs() < 1e-6);
+        assert_eq!(u.evaluate(&[1.0])[1], 0.0);
+    }
+}
+
 /// What is no system is an error that names it.
 #[test]
 fn bad_systems_are_errors() {
@@ -279,6 +315,7 @@ fn bad_systems_are_errors() {
         refused(|s| s.rates[1].states.push(1)),
         refused(|s| s.rates[0].coefficient = f64::NAN),
         refused(|s| s.initial[0].parameters[0] = (3, |x| x)),
+        refused(|s| s.parameters[0] = s.parameters[0].clone().with_zero_start()),
         refused(|s| s.initial[0].parameters[0] = (0, |x| 1.0 / x)),
     ] {
         println!("{error}");
