@@ -294,7 +294,7 @@ fn degenerate_systems() {
         assert!(report.converged, "{report:?}");
         // Radau IIA of three stages, steps of 1/4: fifth order at their ends.
         assert!((u.evaluate(&[1.0])[0] - 1.0_f64.tanh()).abs() < 1e-6);
-        assert_eq!(u.evaluate(&[1.0])[1], 0.0);
+        assert!(u.evaluate(&[1.0])[1].abs() < 1e-14);
     }
 }
 
