@@ -6,11 +6,13 @@ pub mod body;
 pub mod coupling;
 pub mod dynamics;
 pub mod error;
+mod file;
 pub mod flow;
 pub mod fluid;
 pub mod geometry;
 pub mod hydro;
 mod math;
+pub mod reduced;
 
 pub use body::{DryMass, ImmersedBody};
 pub use coupling::{ForceAndTorque, ForceBreakdown, Immersion, RapierSets, Warning, preset};
