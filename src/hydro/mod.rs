@@ -1,5 +1,7 @@
 //! What the fluid feels of a shape.
 
 pub mod added_mass;
+#[cfg(feature = "bake")]
+pub mod boundary_element;
 
 pub use added_mass::AddedMass;

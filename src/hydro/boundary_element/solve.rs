@@ -1,0 +1,311 @@
+//! From the assembled integrals to the added mass.
+
+use super::assemble::{Assembled, Elements, assemble};
+use super::pair::NearField;
+use super::panel::Panel;
+use crate::geometry::{Surface, VolumeIntegrals};
+use crate::hydro::AddedMass;
+use faer::linalg::solvers::{Lblt, Llt, Solve};
+use faer::{Mat, MatRef, Side};
+use rapier3d::na::{Matrix3, Matrix6, Vector3};
+
+/// A triangle mesh ready to be solved: centred, with its unknowns numbered.
+pub(super) struct Problem {
+    pub triangles: Vec<[u32; 3]>,
+    pub panels: Vec<Panel>,
+    pub unknowns: Vec<Option<u32>>,
+    pub unknown_count: usize,
+    /// One list of unknowns per closed component: adding a constant on it changes nothing.
+    components: Vec<Vec<u32>>,
+    positions: Vec<Vector3<f64>>,
+    /// What the mesh encloses; none for a sheet.
+    inside: Option<VolumeIntegrals>,
+    /// The point about which the added mass is computed.
+    center: Vector3<f64>,
+}
+
+/// What one solve on one mesh gives.
+pub(super) struct Solution {
+    /// About the mesh's own center, see [`Problem::center`].
+    pub added_mass: AddedMass,
+    /// Largest relative difference between two ways to compute the same entries.
+    pub asymmetry: f64,
+    /// Potential (exterior, or jump for a sheet) of the six unit motions by vertex.
+    pub potentials: Vec<[f64; 6]>,
+    /// Whether the matrix was positive definite, as it is but for quadrature errors.
+    pub definite: bool,
+    pub near_pairs: usize,
+}
+
+impl Problem {
+    pub fn closed(surface: &Surface) -> Self {
+        let inside = surface.volume_integrals();
+        let count = surface.vertices().len();
+        let unknowns = (0..count).map(|i| Some(i as u32)).collect();
+        Self::new(
+            surface.vertices(),
+            surface.triangles(),
+            unknowns,
+            Some(inside),
+            inside.centroid,
+        )
+    }
+
+    /// An open surface whose vertices are numbered in `unknowns`, none on its rim.
+    pub fn sheet(
+        vertices: &[Vector3<f64>],
+        triangles: &[[u32; 3]],
+        unknowns: Vec<Option<u32>>,
+        center: Vector3<f64>,
+    ) -> Self {
+        Self::new(vertices, triangles, unknowns, None, center)
+    }
+
+    fn new(
+        vertices: &[Vector3<f64>],
+        triangles: &[[u32; 3]],
+        unknowns: Vec<Option<u32>>,
+        inside: Option<VolumeIntegrals>,
+        center: Vector3<f64>,
+    ) -> Self {
+        let positions: Vec<_> = vertices.iter().map(|v| v - center).collect();
+        let panels = triangles
+            .iter()
+            .map(|t| Panel::new(t.map(|i| positions[i as usize])))
+            .collect();
+        let inside = inside.map(|i| VolumeIntegrals {
+            centroid: i.centroid - center,
+            ..i
+        });
+        let unknown_count = unknowns.iter().flatten().count();
+        let mut problem = Self {
+            triangles: triangles.to_vec(),
+            panels,
+            unknowns,
+            unknown_count,
+            components: Vec::new(),
+            positions,
+            inside,
+            center,
+        };
+        if inside.is_some() {
+            problem.components = problem.find_components();
+        }
+        problem
+    }
+
+    pub fn center(&self) -> Vector3<f64> {
+        self.center
+    }
+
+    fn find_components(&self) -> Vec<Vec<u32>> {
+        let mut parent: Vec<u32> = (0..self.unknown_count as u32).collect();
+        fn root(parent: &mut [u32], mut i: u32) -> u32 {
+            while parent[i as usize] != i {
+                parent[i as usize] = parent[parent[i as usize] as usize];
+                i = parent[i as usize];
+            }
+            i
+        }
+        for [a, b, c] in &self.triangles {
+            for other in [*b, *c] {
+                let (i, j) = (root(&mut parent, *a), root(&mut parent, other));
+                parent[i.max(j) as usize] = i.min(j);
+            }
+        }
+        let mut components: Vec<Vec<u32>> = vec![Vec::new(); self.unknown_count];
+        for i in 0..self.unknown_count as u32 {
+            components[root(&mut parent, i) as usize].push(i);
+        }
+        components.retain(|c| !c.is_empty());
+        components
+    }
+
+    /// Solves for the six unit motions.
+    ///
+    /// The unknown is the double layer μ, the jump of the potential across the surface, with
+    /// `W μ = −g`, W the hypersingular operator and g the normal velocity of the motion. W is
+    /// symmetric and positive, and on continuous piecewise linear functions reads
+    /// `⟨Wu, v⟩ = ∫∫ (n×∇u)·(n×∇v) / 4π|x−y|` (Nédélec 1982; Steinbach, *Numerical Approximation
+    /// Methods for Elliptic Boundary Value Problems*, § 6.5). It does not degenerate when two faces
+    /// approach, and serves closed and open surfaces alike.
+    ///
+    /// `−⟨μ, g⟩` is the kinetic energy of the fluid outside **and** of a fluid that fills the body.
+    /// The latter is known for translations (`V`, and `V ω×centroid` for the coupling). For
+    /// rotations it is not, and the outer potential itself is solved for:
+    ///
+    /// ```text
+    /// W φ = −(½ + K')g,    (½ + K')g = g − n·curl B,    B = 2ω ∫_V G dV − ∫ G n×(ω×y) dS
+    /// ```
+    ///
+    /// by the Helmholtz decomposition of the rigid motion inside. Integrated by parts against the
+    /// basis, and with the Newton potential written as a surface integral, this too needs single
+    /// layers only.
+    pub fn solve(&self, near_field: &NearField, progress: &(dyn Fn(f64) + Sync)) -> Solution {
+        let elements = Elements {
+            triangles: &self.triangles,
+            panels: &self.panels,
+            unknowns: &self.unknowns,
+            unknown_count: self.unknown_count,
+        };
+        let closed = self.inside.is_some();
+        // Assembly is three quarters of the time at every size of interest.
+        let assembled = assemble(&elements, near_field, closed, &|share| progress(0.75 * share));
+        let fluxes = self.fluxes();
+        let Assembled {
+            mut matrix,
+            vector_potential,
+            near_pairs,
+        } = assembled;
+        self.pin_constants(&mut matrix);
+        let n = self.unknown_count;
+        let mut right = Mat::<f64>::from_fn(n, 9, |i, j| if j < 6 { fluxes[i][j] } else { 0.0 });
+        if closed {
+            self.add_outer_flux(&vector_potential, &mut right);
+        }
+        let view = MatRef::from_row_major_slice(&matrix, n, n);
+        let (solved, definite) = match Llt::new(view, Side::Lower) {
+            Ok(cholesky) => (cholesky.solve(&right), true),
+            Err(_) => (Lblt::new(view, Side::Lower).solve(&right), false),
+        };
+        let product = right.transpose() * &solved;
+        let (added_mass, asymmetry) = self.added_mass(&product);
+        progress(1.0);
+        let potentials = self.potentials(&solved);
+        Solution {
+            added_mass,
+            asymmetry,
+            potentials,
+            definite,
+            near_pairs,
+        }
+    }
+
+    /// `∫ g_j v_i` by unknown i for the six unit motions j.
+    fn fluxes(&self) -> Vec<[f64; 6]> {
+        let mut fluxes = vec![[0.0; 6]; self.unknown_count];
+        for (triangle, panel) in self.triangles.iter().zip(&self.panels) {
+            let sum: Vector3<f64> = panel.corners.iter().sum();
+            for (v, corner) in triangle.iter().zip(&panel.corners) {
+                let Some(unknown) = self.unknowns[*v as usize] else {
+                    continue;
+                };
+                let flux = &mut fluxes[unknown as usize];
+                let moment = (sum + corner).cross(&panel.normal) * (panel.area / 12.0);
+                for k in 0..3 {
+                    flux[k] += panel.normal[k] * panel.area / 3.0;
+                    flux[3 + k] += moment[k];
+                }
+            }
+        }
+        fluxes
+    }
+
+    /// Columns 6 to 8 become `∫ v_i (½ + K')g` of the three rotations.
+    fn add_outer_flux(&self, vector_potential: &[Matrix3<f64>], right: &mut Mat<f64>) {
+        for i in 0..self.unknown_count {
+            for k in 0..3 {
+                right[(i, 6 + k)] = right[(i, 3 + k)];
+            }
+        }
+        for ((triangle, panel), b) in self
+            .triangles
+            .iter()
+            .zip(&self.panels)
+            .zip(vector_potential)
+        {
+            for (v, curl) in triangle.iter().zip(panel.curls()) {
+                let i = *v as usize;
+                let flux = b.tr_mul(&curl);
+                for k in 0..3 {
+                    right[(i, 6 + k)] += flux[k];
+                }
+            }
+        }
+    }
+
+    /// W cannot see a constant on a closed component. The fluxes have none, so that any positive
+    /// weight on it makes the solution unique without changing it.
+    fn pin_constants(&self, matrix: &mut [f64]) {
+        let n = self.unknown_count;
+        let mean = (0..n).map(|i| matrix[i * n + i]).sum::<f64>() / n.max(1) as f64;
+        for component in &self.components {
+            let weight = mean / component.len() as f64;
+            for i in component {
+                for j in component {
+                    matrix[*i as usize * n + *j as usize] += weight;
+                }
+            }
+        }
+    }
+
+    fn added_mass(&self, product: &Mat<f64>) -> (AddedMass, f64) {
+        let mut m = Matrix6::from_fn(|i, j| product[(i, j)]);
+        let Some(inside) = &self.inside else {
+            return (AddedMass::from_matrix6(&m), 0.0);
+        };
+        let volume = inside.volume;
+        let coupling = -inside.centroid.cross_matrix() * volume;
+        for i in 0..3 {
+            m[(i, i)] -= volume;
+            for j in 0..3 {
+                m[(i, 3 + j)] -= coupling[(i, j)];
+                m[(3 + i, j)] -= coupling[(j, i)];
+                m[(3 + i, 3 + j)] = product[(3 + i, 6 + j)];
+            }
+        }
+        // The same coupling by way of the outer potential, and the rotation block transposed.
+        let scale = Scale::new(&m, inside);
+        let mut asymmetry = 0.0f64;
+        for i in 0..3 {
+            for j in 0..3 {
+                let other = product[(i, 6 + j)];
+                asymmetry = asymmetry
+                    .max((other - m[(i, 3 + j)]).abs() / scale.coupling())
+                    .max((m[(3 + i, 3 + j)] - m[(3 + j, 3 + i)]).abs() / scale.angular);
+            }
+        }
+        (AddedMass::from_matrix6(&m), asymmetry)
+    }
+
+    fn potentials(&self, solved: &Mat<f64>) -> Vec<[f64; 6]> {
+        self.unknowns
+            .iter()
+            .zip(&self.positions)
+            .map(|(unknown, x)| {
+                let Some(i) = unknown else { return [0.0; 6] };
+                std::array::from_fn(|j| {
+                    let row = *i as usize;
+                    match (&self.inside, j) {
+                        (None, _) => -solved[(row, j)],
+                        (Some(_), 0..3) => x[j] - solved[(row, j)],
+                        (Some(_), _) => -solved[(row, j + 3)],
+                    }
+                })
+            })
+            .collect()
+    }
+}
+
+/// Magnitudes that errors of the blocks are relative to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale {
+    pub linear: f64,
+    pub angular: f64,
+}
+
+impl Scale {
+    /// The largest entries, but not less than the displaced fluid's own inertia for the rotations: a
+    /// sphere has no added moment of inertia to be relative to.
+    fn new(m: &Matrix6<f64>, inside: &VolumeIntegrals) -> Self {
+        let largest = |from: usize| (from..from + 3).map(|i| m[(i, i)]).fold(0.0, f64::max);
+        Self {
+            linear: largest(0),
+            angular: largest(3).max(inside.unit_inertia().diagonal().max()),
+        }
+    }
+
+    pub fn coupling(&self) -> f64 {
+        (self.linear * self.angular).sqrt()
+    }
+}
