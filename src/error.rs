@@ -58,6 +58,53 @@ pub enum Error {
         to: [f64; 3],
     },
 
+    /// A triangle is so thin that it has no normal.
+    #[error("triangle {triangle} at {at:?} has no area to speak of")]
+    DegenerateTriangle {
+        /// Index of the first such triangle.
+        triangle: usize,
+        /// Its centroid, m.
+        at: [f64; 3],
+    },
+
+    /// More than two triangles of a sheet meet at an edge.
+    #[error("the sheet branches: more than two triangles meet from {from:?} to {to:?}")]
+    BranchingMesh {
+        /// One end of the first such edge, m.
+        from: [f64; 3],
+        /// Its other end, m.
+        to: [f64; 3],
+    },
+
+    /// A sheet has one side only, like a Möbius strip.
+    #[error("the sheet has one side only: its triangles cannot agree from {from:?} to {to:?}")]
+    OneSidedSheet {
+        /// One end of the edge where that shows, m.
+        from: [f64; 3],
+        /// Its other end, m.
+        to: [f64; 3],
+    },
+
+    /// Two triangles of a mesh pass through each other.
+    #[error("triangles {first} and {second} of the mesh intersect near {at:?}")]
+    SelfIntersection {
+        /// Index of one triangle.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+        /// A point that both contain, m.
+        at: [f64; 3],
+    },
+
+    /// A mesh is larger than the solver was allowed to take on.
+    #[error("the mesh has {panels} triangles, more than max_panels = {max_panels}")]
+    TooManyPanels {
+        /// Triangles of the mesh.
+        panels: usize,
+        /// The limit.
+        max_panels: usize,
+    },
+
     /// A mesh is closed but flat, or its parts cancel.
     #[error("the mesh, {size} m across, encloses no volume")]
     NoVolume {

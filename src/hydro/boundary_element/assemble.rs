@@ -30,8 +30,6 @@ pub(super) struct Assembled {
     /// Per panel P, the matrix that maps an angular velocity ω to `∫_P B`, with B the vector
     /// potential of [`super::solve`], m⁴.
     pub vector_potential: Vec<Matrix3<f64>>,
-    /// Pairs of panels that were integrated analytically.
-    pub near_pairs: usize,
 }
 
 /// Contributions of one panel's row to vector potentials: `Σ first ⊗ n` and `Σ n · first`.
@@ -57,7 +55,6 @@ impl Vortex {
 struct Row {
     /// Per vertex, `Σ_Q J_PQ (n×∇v)_Q` over the later panels Q and half of P itself.
     curls: Vec<Vector3<f64>>,
-    near_pairs: usize,
 }
 
 /// Coordinates of the quadrature points of all panels, one array per point and axis.
@@ -133,7 +130,6 @@ pub(super) fn assemble(
     let curls: Vec<_> = panels.iter().map(Panel::curls).collect();
     let mut matrix = vec![0.0; n * n];
     let mut vortices = vec![Vortex::ZERO; if vortex { panels.len() } else { 0 }];
-    let mut near_pairs = 0;
     // By unknown: the panels around it, ascending, and which of their corners it is.
     let mut around = vec![Vec::new(); n];
     for (p, triangle) in elements.triangles.iter().enumerate() {
@@ -168,7 +164,6 @@ pub(super) fn assemble(
                 sum.inner += part.inner;
             }
         }
-        near_pairs += rows.iter().map(|r| r.near_pairs).sum::<usize>();
         matrix
             .par_chunks_mut(n.max(1))
             .zip(&around)
@@ -200,7 +195,6 @@ pub(super) fn assemble(
     Assembled {
         matrix,
         vector_potential,
-        near_pairs,
     }
 }
 
@@ -219,7 +213,6 @@ fn row(
     let x = [0, 1, 2].map(|a| points.point(a, p));
     let mut row = Row {
         curls: vec![Vector3::zeros(); elements.unknown_count],
-        near_pairs: 0,
     };
     let corners: HashSet<u32> = elements.triangles[p].into();
     for (offset, other) in panels[p..].iter().enumerate() {
@@ -229,7 +222,6 @@ fn row(
             near_field.self_moments(panel)
         } else if (panel.centroid - other.centroid).norm_squared() < reach * reach {
             let touching = elements.triangles[q].iter().any(|v| corners.contains(v));
-            row.near_pairs += 1;
             near_field.moments(panel, other, touching)
         } else {
             let w = panel.area * other.area / 9.0;

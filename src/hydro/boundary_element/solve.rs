@@ -3,7 +3,7 @@
 use super::assemble::{Assembled, Elements, assemble};
 use super::pair::NearField;
 use super::panel::Panel;
-use crate::geometry::{Surface, VolumeIntegrals};
+use crate::geometry::{Sheet, Surface, VolumeIntegrals};
 use crate::hydro::AddedMass;
 use faer::linalg::solvers::{Lblt, Llt, Solve};
 use faer::{Mat, MatRef, Side};
@@ -30,44 +30,59 @@ pub(super) struct Solution {
     pub added_mass: AddedMass,
     /// Largest relative difference between two ways to compute the same entries.
     pub asymmetry: f64,
+    pub scale: Scale,
     /// Potential (exterior, or jump for a sheet) of the six unit motions by vertex.
     pub potentials: Vec<[f64; 6]>,
     /// Whether the matrix was positive definite, as it is but for quadrature errors.
     pub definite: bool,
-    pub near_pairs: usize,
 }
 
 impl Problem {
     pub fn closed(surface: &Surface) -> Self {
         let inside = surface.volume_integrals();
-        let count = surface.vertices().len();
-        let unknowns = (0..count).map(|i| Some(i as u32)).collect();
+        let pinned = vec![false; surface.vertices().len()];
         Self::new(
             surface.vertices(),
             surface.triangles(),
-            unknowns,
+            &pinned,
             Some(inside),
             inside.centroid,
         )
     }
 
-    /// An open surface whose vertices are numbered in `unknowns`, none on its rim.
-    pub fn sheet(
-        vertices: &[Vector3<f64>],
-        triangles: &[[u32; 3]],
-        unknowns: Vec<Option<u32>>,
-        center: Vector3<f64>,
-    ) -> Self {
-        Self::new(vertices, triangles, unknowns, None, center)
+    /// The jump of the potential vanishes on the rim.
+    pub fn sheet(sheet: &Sheet) -> Self {
+        Self::new(
+            sheet.vertices(),
+            sheet.triangles(),
+            sheet.on_rim(),
+            None,
+            sheet.centroid(),
+        )
     }
 
     fn new(
         vertices: &[Vector3<f64>],
         triangles: &[[u32; 3]],
-        unknowns: Vec<Option<u32>>,
+        pinned: &[bool],
         inside: Option<VolumeIntegrals>,
         center: Vector3<f64>,
     ) -> Self {
+        let mut used = vec![false; vertices.len()];
+        for v in triangles.iter().flatten() {
+            used[*v as usize] = true;
+        }
+        let mut unknown_count = 0;
+        let unknowns: Vec<Option<u32>> = used
+            .iter()
+            .zip(pinned)
+            .map(|(used, pinned)| {
+                (*used && !pinned).then(|| {
+                    unknown_count += 1;
+                    unknown_count as u32 - 1
+                })
+            })
+            .collect();
         let positions: Vec<_> = vertices.iter().map(|v| v - center).collect();
         let panels = triangles
             .iter()
@@ -77,7 +92,6 @@ impl Problem {
             centroid: i.centroid - center,
             ..i
         });
-        let unknown_count = unknowns.iter().flatten().count();
         let mut problem = Self {
             triangles: triangles.to_vec(),
             panels,
@@ -98,6 +112,23 @@ impl Problem {
         self.center
     }
 
+    /// Takes another point as the one that rotations are about.
+    pub fn recenter(&mut self, center: Vector3<f64>) {
+        let shift = self.center - center;
+        for x in &mut self.positions {
+            *x += shift;
+        }
+        self.panels = self
+            .triangles
+            .iter()
+            .map(|t| Panel::new(t.map(|i| self.positions[i as usize])))
+            .collect();
+        if let Some(inside) = &mut self.inside {
+            inside.centroid += shift;
+        }
+        self.center = center;
+    }
+
     fn find_components(&self) -> Vec<Vec<u32>> {
         let mut parent: Vec<u32> = (0..self.unknown_count as u32).collect();
         fn root(parent: &mut [u32], mut i: u32) -> u32 {
@@ -107,9 +138,11 @@ impl Problem {
             }
             i
         }
-        for [a, b, c] in &self.triangles {
-            for other in [*b, *c] {
-                let (i, j) = (root(&mut parent, *a), root(&mut parent, other));
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|v| self.unknowns[v as usize]);
+            let Some(a) = a else { continue };
+            for other in [b, c].into_iter().flatten() {
+                let (i, j) = (root(&mut parent, a), root(&mut parent, other));
                 parent[i.max(j) as usize] = i.min(j);
             }
         }
@@ -155,7 +188,6 @@ impl Problem {
         let Assembled {
             mut matrix,
             vector_potential,
-            near_pairs,
         } = assembled;
         self.pin_constants(&mut matrix);
         let n = self.unknown_count;
@@ -169,15 +201,15 @@ impl Problem {
             Err(_) => (Lblt::new(view, Side::Lower).solve(&right), false),
         };
         let product = right.transpose() * &solved;
-        let (added_mass, asymmetry) = self.added_mass(&product);
+        let (added_mass, asymmetry, scale) = self.added_mass(&product);
         progress(1.0);
         let potentials = self.potentials(&solved);
         Solution {
             added_mass,
             asymmetry,
+            scale,
             potentials,
             definite,
-            near_pairs,
         }
     }
 
@@ -215,10 +247,12 @@ impl Problem {
             .zip(vector_potential)
         {
             for (v, curl) in triangle.iter().zip(panel.curls()) {
-                let i = *v as usize;
+                let Some(i) = self.unknowns[*v as usize] else {
+                    continue;
+                };
                 let flux = b.tr_mul(&curl);
                 for k in 0..3 {
-                    right[(i, 6 + k)] += flux[k];
+                    right[(i as usize, 6 + k)] += flux[k];
                 }
             }
         }
@@ -239,10 +273,13 @@ impl Problem {
         }
     }
 
-    fn added_mass(&self, product: &Mat<f64>) -> (AddedMass, f64) {
+    fn added_mass(&self, product: &Mat<f64>) -> (AddedMass, f64, Scale) {
         let mut m = Matrix6::from_fn(|i, j| product[(i, j)]);
         let Some(inside) = &self.inside else {
-            return (AddedMass::from_matrix6(&m), 0.0);
+            // −⟨μ, g⟩ is symmetric as it stands: what it lacks is rounding.
+            let scale = Scale::new(&m, None);
+            let asymmetry = scale.relative(&(m - m.transpose()));
+            return (AddedMass::from_matrix6(&m), asymmetry, scale);
         };
         let volume = inside.volume;
         let coupling = -inside.centroid.cross_matrix() * volume;
@@ -255,17 +292,16 @@ impl Problem {
             }
         }
         // The same coupling by way of the outer potential, and the rotation block transposed.
-        let scale = Scale::new(&m, inside);
-        let mut asymmetry = 0.0f64;
+        let scale = Scale::new(&m, Some(inside));
+        let mut difference = Matrix6::zeros();
         for i in 0..3 {
             for j in 0..3 {
-                let other = product[(i, 6 + j)];
-                asymmetry = asymmetry
-                    .max((other - m[(i, 3 + j)]).abs() / scale.coupling())
-                    .max((m[(3 + i, 3 + j)] - m[(3 + j, 3 + i)]).abs() / scale.angular);
+                difference[(i, 3 + j)] = product[(i, 6 + j)] - m[(i, 3 + j)];
+                difference[(3 + i, 3 + j)] = m[(3 + i, 3 + j)] - m[(3 + j, 3 + i)];
             }
         }
-        (AddedMass::from_matrix6(&m), asymmetry)
+        let asymmetry = scale.relative(&difference);
+        (AddedMass::from_matrix6(&m), asymmetry, scale)
     }
 
     fn potentials(&self, solved: &Mat<f64>) -> Vec<[f64; 6]> {
@@ -287,25 +323,35 @@ impl Problem {
     }
 }
 
-/// Magnitudes that errors of the blocks are relative to.
+/// Magnitudes that errors of the blocks are relative to; the same in all axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
-    pub linear: f64,
-    pub angular: f64,
+    linear: f64,
+    angular: f64,
 }
 
 impl Scale {
-    /// The largest entries, but not less than the displaced fluid's own inertia for the rotations: a
-    /// sphere has no added moment of inertia to be relative to.
-    fn new(m: &Matrix6<f64>, inside: &VolumeIntegrals) -> Self {
-        let largest = |from: usize| (from..from + 3).map(|i| m[(i, i)]).fold(0.0, f64::max);
+    /// The norms of the blocks, but not less than the displaced fluid's own inertia for the
+    /// rotations: a sphere has no added moment of inertia to be relative to.
+    fn new(m: &Matrix6<f64>, inside: Option<&VolumeIntegrals>) -> Self {
+        let norm = |at: usize| m.fixed_view::<3, 3>(at, at).norm();
+        let floor = inside.map_or(0.0, |i| i.unit_inertia().norm());
         Self {
-            linear: largest(0),
-            angular: largest(3).max(inside.unit_inertia().diagonal().max()),
+            linear: norm(0).max(f64::MIN_POSITIVE),
+            angular: norm(3).max(floor).max(f64::MIN_POSITIVE),
         }
     }
 
-    pub fn coupling(&self) -> f64 {
-        (self.linear * self.angular).sqrt()
+    /// Of the energy of one of the six unit motions.
+    pub fn of_motion(&self, motion: usize) -> f64 {
+        if motion < 3 { self.linear } else { self.angular }
+    }
+
+    /// The norm of each block of a difference relative to its scale; the largest.
+    pub fn relative(&self, difference: &Matrix6<f64>) -> f64 {
+        let norm = |i: usize, j: usize| difference.fixed_view::<3, 3>(i, j).norm();
+        (norm(0, 0) / self.linear)
+            .max(norm(0, 3) / (self.linear * self.angular).sqrt())
+            .max(norm(3, 3) / self.angular)
     }
 }
