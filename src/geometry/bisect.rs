@@ -9,14 +9,26 @@ fn key(a: u32, b: u32) -> Edge {
     (a.min(b), a.max(b))
 }
 
-/// Halves the marked triangles across their longest edge, and as many others as it takes for no
-/// vertex to lie inside of an edge (Rivara 1984, Int. J. Numer. Meth. Engng 20). The surface does
-/// not change, and angles never become smaller than half the smallest at the start.
-pub(crate) fn bisect(
+/// Quarters the marked triangles: halves them across their longest edge, twice, and with them as many
+/// others as it takes for no vertex to lie inside of an edge (Rivara 1984, Int. J. Numer. Meth.
+/// Engng 20). The surface does not change, and no angle becomes smaller than half the smallest at the
+/// start.
+pub(crate) fn quarter(
     vertices: &mut Vec<Vector3<f64>>,
     triangles: &[[u32; 3]],
     marked: &[bool],
 ) -> Vec<[u32; 3]> {
+    let (halves, parents) = halve(vertices, triangles, marked);
+    let marked: Vec<_> = parents.iter().map(|p| marked[*p]).collect();
+    halve(vertices, &halves, &marked).0
+}
+
+/// The refined triangles, and of each the one that it is a part of.
+fn halve(
+    vertices: &mut Vec<Vector3<f64>>,
+    triangles: &[[u32; 3]],
+    marked: &[bool],
+) -> (Vec<[u32; 3]>, Vec<usize>) {
     // Equal lengths are told apart by the edge itself, so that both neighbors agree.
     let longest: Vec<usize> = triangles
         .iter()
@@ -57,7 +69,8 @@ pub(crate) fn bisect(
     }
     let mut middles: HashMap<Edge, u32> = HashMap::with_capacity(split.len());
     let mut refined = Vec::with_capacity(triangles.len() + 2 * split.len());
-    for (t, i) in triangles.iter().zip(&longest) {
+    let mut parents = Vec::with_capacity(triangles.len() + 2 * split.len());
+    for (parent, (t, i)) in triangles.iter().zip(&longest).enumerate() {
         let mut middle = |a: u32, b: u32| {
             split.contains(&key(a, b)).then(|| {
                 *middles.entry(key(a, b)).or_insert_with(|| {
@@ -69,6 +82,7 @@ pub(crate) fn bisect(
         let [from, to, apex] = [0, 1, 2].map(|k| t[(i + k) % 3]);
         let Some(m) = middle(from, to) else {
             refined.push(*t);
+            parents.push(parent);
             continue;
         };
         for (a, b) in [(to, apex), (apex, from)] {
@@ -77,8 +91,9 @@ pub(crate) fn bisect(
                 None => refined.push([a, b, m]),
             }
         }
+        parents.resize(refined.len(), parent);
     }
-    refined
+    (refined, parents)
 }
 
 #[cfg(test)]
@@ -96,10 +111,10 @@ mod tests {
         let (mut vertices, mut triangles) =
             (surface.vertices().to_vec(), surface.triangles().to_vec());
         let mut random = rand_pcg::Pcg32::seed_from_u64(1);
-        for _ in 0..6 {
+        for _ in 0..4 {
             let marked: Vec<bool> = triangles.iter().map(|_| random.random_bool(0.3)).collect();
             let count = triangles.len();
-            triangles = bisect(&mut vertices, &triangles, &marked);
+            triangles = quarter(&mut vertices, &triangles, &marked);
             assert!(triangles.len() > count);
             let refined = Surface::new(&vertices, &triangles).unwrap();
             assert_eq!(refined.triangles().len(), triangles.len());
@@ -113,8 +128,8 @@ mod tests {
     fn nothing_marked_changes_nothing() {
         let mut vertices = vec![Vector3::zeros(), Vector3::x(), Vector3::y()];
         let triangles = [[0, 1, 2]];
-        assert_eq!(bisect(&mut vertices, &triangles, &[false]), triangles);
-        assert_eq!(bisect(&mut vertices, &triangles, &[true]).len(), 2);
-        assert_eq!(vertices.len(), 4);
+        assert_eq!(quarter(&mut vertices, &triangles, &[false]), triangles);
+        assert_eq!(quarter(&mut vertices, &triangles, &[true]).len(), 4);
+        assert_eq!(vertices.len(), 6);
     }
 }

@@ -28,7 +28,13 @@ pub(crate) fn both_ends(cells: usize) -> Vec<f64> {
 pub(crate) fn disc(rings: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
     let mut vertices = vec![Vector3::zeros()];
     let mut triangles = Vec::with_capacity(6 * rings * rings);
-    let start = |ring: usize| if ring == 0 { 0 } else { 1 + 3 * ring * (ring - 1) };
+    let start = |ring: usize| {
+        if ring == 0 {
+            0
+        } else {
+            1 + 3 * ring * (ring - 1)
+        }
+    };
     for ring in 1..=rings {
         let radius = (TAU / 4.0 * ring as f64 / rings as f64).sin();
         vertices.extend((0..6 * ring).map(|i| {

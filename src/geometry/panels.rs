@@ -58,9 +58,7 @@ impl Surface {
                 let along = (((2.0 * h / r) * cells as f64 / (PI / 2.0)).ceil() as usize)
                     .clamp(1, 4 * cells);
                 let mut profile: Vec<_> = quarter.iter().map(|(s, c)| (r * s, h + r * c)).collect();
-                profile.extend(
-                    (1..along).map(|i| (r, h - 2.0 * h * i as f64 / along as f64)),
-                );
+                profile.extend((1..along).map(|i| (r, h - 2.0 * h * i as f64 / along as f64)));
                 profile.extend(quarter.iter().rev().map(|(s, c)| (r * s, -h - r * c)));
                 // Exactly on the axis.
                 profile[0].0 = 0.0;
@@ -94,9 +92,10 @@ impl Surface {
             | TypedShape::Cylinder(_)
             | TypedShape::Cone(_)
             | TypedShape::Capsule(_) => true,
-            TypedShape::Compound(s) => {
-                s.shapes().iter().all(|(_, s)| Self::follows_cells(s.as_ref()))
-            }
+            TypedShape::Compound(s) => s
+                .shapes()
+                .iter()
+                .all(|(_, s)| Self::follows_cells(s.as_ref())),
             _ => false,
         }
     }
@@ -183,9 +182,11 @@ fn cuboid(half: Vector3<f64>, cells: usize) -> Result<Surface, Error> {
                     } else {
                         [[p, q, s], [q, r, s]]
                     };
-                    triangles.extend(halves.map(|[x, y, z]| {
-                        if outward { [x, y, z] } else { [x, z, y] }
-                    }));
+                    triangles.extend(halves.map(
+                        |[x, y, z]| {
+                            if outward { [x, y, z] } else { [x, z, y] }
+                        },
+                    ));
                 }
             }
         }
@@ -288,14 +289,19 @@ mod tests {
             (SharedShape::cuboid(0.1, 0.2, 0.0003), 0.000048),
             (SharedShape::cylinder(0.01, 0.4), PI * 0.16 * 0.02),
             (SharedShape::cone(0.5, 0.2), PI * 0.04 / 3.0),
-            (SharedShape::capsule(Vector::X, Vector::X * 3.0, 0.5), capsule),
+            (
+                SharedShape::capsule(Vector::X, Vector::X * 3.0, 0.5),
+                capsule,
+            ),
         ] {
             for cells in [3, 6] {
                 let surface = Surface::panelled(shape.as_ref(), cells).unwrap();
                 let found = surface.volume_integrals();
                 // The sizes are f32.
                 assert_relative_eq!(found.volume, volume, max_relative = 3e-7);
-                let coarse = Surface::from_shape(shape.as_ref()).unwrap().volume_integrals();
+                let coarse = Surface::from_shape(shape.as_ref())
+                    .unwrap()
+                    .volume_integrals();
                 assert!((found.centroid - coarse.centroid).norm() < 1e-6);
             }
         }

@@ -141,7 +141,10 @@ mod tests {
 
     fn boxes_apart(distance: f32) -> Result<(), Error> {
         let part = SharedShape::cuboid(0.5, 0.5, 0.5);
-        let poses = [Pose::IDENTITY, Pose::from_translation(Vector::new(distance, 0.1, 0.2))];
+        let poses = [
+            Pose::IDENTITY,
+            Pose::from_translation(Vector::new(distance, 0.1, 0.2)),
+        ];
         let both = SharedShape::compound(poses.map(|p| (p, part.clone())).to_vec());
         let surface = Surface::panelled(both.as_ref(), 3).unwrap();
         check_intersections(surface.vertices(), surface.triangles())
@@ -171,6 +174,9 @@ mod tests {
         ];
         assert_eq!(check_triangles(&v, &[[0, 1, 2]]), Ok(()));
         let found = check_triangles(&v, &[[0, 1, 2], [0, 1, 3]]);
-        assert!(matches!(found, Err(Error::DegenerateTriangle { triangle: 1, .. })));
+        assert!(matches!(
+            found,
+            Err(Error::DegenerateTriangle { triangle: 1, .. })
+        ));
     }
 }

@@ -1,6 +1,6 @@
 //! Open surfaces: paper, leaves and wings by their mid-surface.
 
-use super::bisect::bisect;
+use super::bisect::quarter;
 use crate::Error;
 use rapier3d::na::Vector3;
 use std::collections::HashMap;
@@ -77,22 +77,17 @@ impl Sheet {
     ///
     /// # Errors
     /// [`Error::InvalidParameter`] for sizes that are not positive, or no cells.
-    pub fn rectangle(
-        length: f64,
-        width: f64,
-        thickness: f64,
-        cells: usize,
-    ) -> Result<Self, Error> {
+    pub fn rectangle(length: f64, width: f64, thickness: f64, cells: usize) -> Result<Self, Error> {
         Error::check_positive("length", length)?;
         Error::check_positive("width", width)?;
         Error::check_positive("cells", cells as f64)?;
         let line = super::graded::both_ends(cells);
         let mut vertices = Vec::new();
         for s in &line {
-            vertices
-                .extend(line.iter().map(|t| {
-                    Vector3::new(length * (s - 0.5), width * (t - 0.5), 0.0)
-                }));
+            vertices.extend(
+                line.iter()
+                    .map(|t| Vector3::new(length * (s - 0.5), width * (t - 0.5), 0.0)),
+            );
         }
         let mut triangles = Vec::new();
         for i in 0..cells {
@@ -272,11 +267,11 @@ impl Sheet {
         }
     }
 
-    /// The same sheet with the marked triangles halved.
+    /// The same sheet with the marked triangles quartered.
     #[cfg_attr(not(feature = "bake"), allow(dead_code))]
-    pub(crate) fn bisected(&self, marked: &[bool]) -> Self {
+    pub(crate) fn quartered(&self, marked: &[bool]) -> Self {
         let mut vertices = self.vertices.clone();
-        let triangles = bisect(&mut vertices, &self.triangles, marked);
+        let triangles = quarter(&mut vertices, &self.triangles, marked);
         Self::from_oriented(vertices, triangles, self.thickness, self.turned)
     }
 }
@@ -372,7 +367,10 @@ mod tests {
         let sheet = Sheet::new(&v, &[[0, 1, 2], [1, 2, 3]], 0.1).unwrap();
         assert_eq!(sheet.turned(), 1);
         let three = Sheet::new(&v, &[[0, 1, 2], [1, 3, 2], [1, 2, 4]], 0.1);
-        assert!(matches!(three, Err(Error::BranchingMesh { .. })), "{three:?}");
+        assert!(
+            matches!(three, Err(Error::BranchingMesh { .. })),
+            "{three:?}"
+        );
         assert!(Sheet::new(&v, &[[0, 1, 2]], 0.0).is_err());
         assert!(matches!(
             Sheet::new(&v, &[[0, 1, 1]], 0.1),
@@ -387,6 +385,9 @@ mod tests {
             .collect();
         let mobius: Vec<[u32; 3]> = (0..5).map(|i| [i, (i + 1) % 5, (i + 2) % 5]).collect();
         let one_sided = Sheet::new(&strip, &mobius, 0.1);
-        assert!(matches!(one_sided, Err(Error::OneSidedSheet { .. })), "{one_sided:?}");
+        assert!(
+            matches!(one_sided, Err(Error::OneSidedSheet { .. })),
+            "{one_sided:?}"
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! The Galerkin matrix of the hypersingular operator, and the vortex potential of the rotations.
 
-use super::pair::{Moments, NearField, THREE_POINTS};
+use super::pair::{Moments, NearField, THREE_POINTS, TIE};
 use super::panel::Panel;
 use rapier3d::na::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -150,7 +150,9 @@ pub(super) fn assemble(
                 let mut sums = FarSums::default();
                 let rows = (start..(start + ROWS_PER_TASK).min(last))
                     .map(|p| {
-                        row(elements, &points, &curls, near_field, p, &mut sums, &mut felt)
+                        row(
+                            elements, &points, &curls, near_field, p, &mut sums, &mut felt,
+                        )
                     })
                     .collect();
                 (rows, felt)
@@ -217,7 +219,7 @@ fn row(
     let corners: HashSet<u32> = elements.triangles[p].into();
     for (offset, other) in panels[p..].iter().enumerate() {
         let q = p + offset;
-        let reach = near_field.far * (panel.radius + other.radius);
+        let reach = TIE * near_field.far * (panel.radius + other.radius);
         let moments = if q == p {
             near_field.self_moments(panel)
         } else if (panel.centroid - other.centroid).norm_squared() < reach * reach {

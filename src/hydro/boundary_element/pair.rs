@@ -35,6 +35,10 @@ const SEVEN_POINTS: [([f64; 3], f64); 7] = {
     ]
 };
 
+/// Meshes are full of equal lengths. Comparing to a little more than the other side makes the choice
+/// between equals independent of rounding, and so of the axes that a body is given in.
+pub(super) const TIE: f64 = 1.0 + 1e-7;
+
 /// How finely the outer integral of close panels is resolved.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearField {
@@ -72,7 +76,7 @@ impl NearField {
             self.close_levels
         };
         let mut sum = Moments::default();
-        if p.radius <= q.radius {
+        if p.radius <= q.radius * TIE {
             integrate(p.corners, p.area, q, levels, &mut sum);
             sum
         } else {
@@ -102,23 +106,22 @@ impl NearField {
 fn integrate(outer: [Vector3<f64>; 3], area: f64, inner: &Panel, levels: u32, sum: &mut Moments) {
     let [a, b, c] = outer;
     let lengths = [(b - c), (c - a), (a - b)].map(|e| e.norm_squared());
-    let longest = if lengths[0] >= lengths[1] && lengths[0] >= lengths[2] {
-        0
-    } else if lengths[1] >= lengths[2] {
-        1
-    } else {
-        2
-    };
+    let mut longest = 0;
+    for i in 1..3 {
+        if lengths[i] > lengths[longest] * TIE {
+            longest = i;
+        }
+    }
     let size = 0.5 * lengths[longest].sqrt();
     let distance = inner.distance_to_edges((a + b + c) / 3.0);
-    if levels > 0 && distance < size {
+    if levels > 0 && distance < size * TIE {
         let [apex, from, to] = [longest, (longest + 1) % 3, (longest + 2) % 3].map(|i| outer[i]);
         let middle = (from + to) * 0.5;
         integrate([apex, from, middle], 0.5 * area, inner, levels - 1, sum);
         integrate([apex, middle, to], 0.5 * area, inner, levels - 1, sum);
         return;
     }
-    let rule: &Rule = if distance > 3.0 * size {
+    let rule: &Rule = if distance > 3.0 * TIE * size {
         &THREE_POINTS
     } else {
         &SEVEN_POINTS

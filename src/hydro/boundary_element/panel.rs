@@ -61,9 +61,6 @@ impl Panel {
     }
 
     /// Length of the longest edge, m.
-    pub fn diameter(&self) -> f64 {
-        self.edges.iter().map(|e| e.length).fold(0.0, f64::max)
-    }
 
     /// Surface curls `n × ∇λ_i` of the three hat functions, constant on the panel, 1/m.
     pub fn curls(&self) -> [Vector3<f64>; 3] {
@@ -91,16 +88,14 @@ impl Panel {
             let gap = (sum - edge.length).max(f64::MIN_POSITIVE);
             let logarithm = ((sum + edge.length) / gap).ln();
             uniform += inward * logarithm;
-            let line =
-                end * far - start * near + (inward * inward + height * height) * logarithm;
+            let line = end * far - start * near + (inward * inward + height * height) * logarithm;
             first += edge.outward * (0.5 * line);
         }
         if height != 0.0 {
             let [a, b, c] = to;
             let [ra, rb, rc] = distance;
             let triple = 2.0 * self.area * height.abs();
-            let denominator =
-                ra * rb * rc + a.dot(&b) * rc + b.dot(&c) * ra + c.dot(&a) * rb;
+            let denominator = ra * rb * rc + a.dot(&b) * rc + b.dot(&c) * ra + c.dot(&a) * rb;
             uniform -= 2.0 * height.abs() * triple.atan2(denominator);
         }
         Potential {
@@ -240,7 +235,11 @@ mod tests {
         assert!((a + b + c).norm() < 1e-14);
         // n × ∇λ: turning it back gives a gradient that is 1 across the height over corner 0.
         let gradient = a.cross(&p.normal);
-        assert_relative_eq!(gradient.dot(&(p.corners[0] - p.corners[1])), 1.0, epsilon = 1e-13);
+        assert_relative_eq!(
+            gradient.dot(&(p.corners[0] - p.corners[1])),
+            1.0,
+            epsilon = 1e-13
+        );
         assert!(gradient.dot(&(p.corners[2] - p.corners[1])).abs() < 1e-13);
     }
 }

@@ -12,19 +12,19 @@ use crate::hydro::AddedMass;
 use rapier3d::na::Vector3;
 use std::collections::HashMap;
 
-/// A mesh with fewer panels than this is halved everywhere before it is solved for the first time:
+/// A mesh with fewer panels than this is divided everywhere before it is solved for the first time:
 /// the differences of the first levels would tell nothing.
 const FIRST_PANELS: usize = 200;
 
-/// Of the sum of all indicators, the share on the panels that are halved.
-const MARKED_SHARE: f64 = 0.7;
-/// The least share of the panels that is halved.
+/// Of the sum of all indicators, the share on the panels that are quartered.
+const MARKED_SHARE: f64 = 0.8;
+/// The least share of the panels that is quartered.
 const LEAST_MARKED: f64 = 0.25;
 
 /// Ratio of successive differences that is assumed before it can be measured, and its bounds. Edges
 /// of isotropic meshes give about ½ per doubling; a ratio close to 1 would extrapolate to anywhere.
 const DEFAULT_RATIO: f64 = 0.5;
-const RATIO_BOUNDS: (f64, f64) = (0.2, 0.7);
+const RATIO_BOUNDS: (f64, f64) = (0.3, 0.7);
 
 /// What can be meshed.
 #[derive(Clone, Debug)]
@@ -60,14 +60,14 @@ impl Body {
         }
     }
 
-    fn bisected(&self, marked: &[bool]) -> Result<Self, Error> {
+    fn quartered(&self, marked: &[bool]) -> Result<Self, Error> {
         Ok(match self {
             Self::Closed(surface) => {
                 let mut vertices = surface.vertices().to_vec();
-                let triangles = bisect::bisect(&mut vertices, surface.triangles(), marked);
+                let triangles = bisect::quarter(&mut vertices, surface.triangles(), marked);
                 Self::Closed(Surface::new(&vertices, &triangles)?)
             }
-            Self::Sheet(sheet) => Self::Sheet(sheet.bisected(marked)),
+            Self::Sheet(sheet) => Self::Sheet(sheet.quartered(marked)),
         })
     }
 }
@@ -129,12 +129,12 @@ impl<'a> Levels<'a> {
                 }
                 _ => DEFAULT_RATIO,
             };
-            // A geometric series of differences (Aitken): what is missing is what is added.
+            // A geometric series of differences (Aitken). What is added, or the last difference if
+            // that is more, is what may still be wrong.
             let missing = ratio / (1.0 - ratio);
-            self.error = Some(change * missing);
-            self.added_mass = AddedMass::from_matrix6(
-                &(solution.added_mass.to_matrix6() + step * missing),
-            );
+            self.error = Some(change * missing.max(1.0));
+            self.added_mass =
+                AddedMass::from_matrix6(&(solution.added_mass.to_matrix6() + step * missing));
         }
         self.history.push((panels, change));
         self.last = Some((problem, solution));
@@ -190,7 +190,7 @@ pub(super) fn adaptively(
     body.check()?;
     let refine = params.tolerance.is_finite();
     while refine && body.triangles().len() < FIRST_PANELS.min(params.max_panels / 4) {
-        body = body.bisected(&vec![true; body.triangles().len()])?;
+        body = body.quartered(&vec![true; body.triangles().len()])?;
     }
     let mut levels = Levels::new(params, progress);
     loop {
@@ -201,7 +201,7 @@ pub(super) fn adaptively(
         let Some((problem, solution)) = &levels.last else {
             break;
         };
-        let finer = body.bisected(&mark(&indicators(problem, solution)))?;
+        let finer = body.quartered(&mark(&indicators(problem, solution)))?;
         if finer.triangles().len() > params.max_panels {
             break;
         }

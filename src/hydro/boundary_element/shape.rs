@@ -1,9 +1,7 @@
 //! Rapier's shapes: meshed to an accuracy.
 
 use super::refine::{self, Body};
-use super::{
-    BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn,
-};
+use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn};
 use crate::Error;
 use crate::geometry::{Ellipsoid, Surface};
 use crate::hydro::AddedMass;
@@ -35,9 +33,13 @@ impl AddedMass {
             ..BoundaryElementParams::default()
         };
         let reference = crate::math::to_f64(reference_point);
-        for (parameter, value) in ["reference_point.x", "reference_point.y", "reference_point.z"]
-            .iter()
-            .zip(reference.iter())
+        for (parameter, value) in [
+            "reference_point.x",
+            "reference_point.y",
+            "reference_point.z",
+        ]
+        .iter()
+        .zip(reference.iter())
         {
             if !value.is_finite() {
                 return Err(Error::InvalidParameter {

@@ -183,7 +183,9 @@ impl Problem {
         };
         let closed = self.inside.is_some();
         // Assembly is three quarters of the time at every size of interest.
-        let assembled = assemble(&elements, near_field, closed, &|share| progress(0.75 * share));
+        let assembled = assemble(&elements, near_field, closed, &|share| {
+            progress(0.75 * share)
+        });
         let fluxes = self.fluxes();
         let Assembled {
             mut matrix,
@@ -344,7 +346,11 @@ impl Scale {
 
     /// Of the energy of one of the six unit motions.
     pub fn of_motion(&self, motion: usize) -> f64 {
-        if motion < 3 { self.linear } else { self.angular }
+        if motion < 3 {
+            self.linear
+        } else {
+            self.angular
+        }
     }
 
     /// The norm of each block of a difference relative to its scale; the largest.
