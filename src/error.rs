@@ -111,6 +111,57 @@ pub enum Error {
         /// Diagonal of its bounding box, m.
         size: f64,
     },
+
+    /// An added-mass tensor is not finite, not symmetric, or gives some motion negative energy.
+    #[error("the added-mass tensor is not symmetric, positive and finite")]
+    UnphysicalAddedMass,
+
+    /// A list has the wrong number of entries.
+    #[error("{what}: {actual} given where {expected} are needed")]
+    WrongLength {
+        /// Which list.
+        what: &'static str,
+        /// How many entries it must have (the least, where more are allowed).
+        expected: usize,
+        /// How many it has.
+        actual: usize,
+    },
+
+    /// A file does not start with the magic bytes of its kind.
+    #[error("not a file of this kind: it starts with {found:02x?} instead of {expected:02x?}")]
+    WrongMagic {
+        /// How the file must start.
+        expected: [u8; 8],
+        /// How it starts (zeros where it is shorter).
+        found: [u8; 8],
+    },
+
+    /// A file was written by another version of the format.
+    #[error("file format version {found}, but this crate reads {expected}")]
+    WrongVersion {
+        /// The version this crate reads.
+        expected: u32,
+        /// The version of the file.
+        found: u32,
+    },
+
+    /// The bytes of a file are not the ones that were written.
+    #[error("the file was altered: checksum {found:016x}, but its header says {expected:016x}")]
+    WrongChecksum {
+        /// What the header says.
+        expected: u64,
+        /// What its content gives.
+        found: u64,
+    },
+
+    /// The content of a file cannot be decoded, although its checksum is right.
+    #[error("cannot decode {what} from {length} bytes")]
+    Undecodable {
+        /// What should be in the file.
+        what: &'static str,
+        /// Length of the content in bytes.
+        length: usize,
+    },
 }
 
 impl Error {

@@ -3,5 +3,7 @@
 pub mod added_mass;
 #[cfg(feature = "bake")]
 pub mod boundary_element;
+#[cfg(feature = "serde-serialize")]
+mod file;
 
 pub use added_mass::AddedMass;

@@ -14,11 +14,14 @@
 //! grows as `panels²` up to some 5000 panels, where the factorisation, `panels³/24`, takes over.
 
 mod assemble;
+mod cache;
 mod pair;
 mod panel;
 mod refine;
 mod shape;
 mod solve;
+
+pub use cache::{AddedMassCache, SolvedShape};
 
 use crate::Error;
 use crate::geometry::{Sheet, Surface};
@@ -97,6 +100,10 @@ impl BoundaryElementParams {
 
 /// How a solve went.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub struct BoundaryElementReport {
     /// Panels of the finest mesh.
     pub panels: usize,

@@ -14,7 +14,7 @@ use std::collections::HashMap;
 
 /// A mesh with fewer panels than this is divided everywhere before it is solved for the first time:
 /// the differences of the first levels would tell nothing.
-const FIRST_PANELS: usize = 200;
+const FIRST_PANELS: usize = 150;
 
 /// Of the sum of all indicators, the share on the panels that are quartered.
 const MARKED_SHARE: f64 = 0.8;
