@@ -25,8 +25,16 @@ pub enum Kind {
 
 pub enum Body {
     Shape(SharedShape),
+    Ellipsoid(Ellipsoid),
     Surface(Surface),
     Sheet(Sheet),
+    /// Side and thickness, m.
+    Airplane(f64, f64),
+}
+
+/// Cells of ever finer meshes.
+fn cells(level: usize) -> usize {
+    [6, 8, 11, 16, 22][level.min(4)] + 8 * level.saturating_sub(4)
 }
 
 pub struct Case {
@@ -56,22 +64,16 @@ impl Case {
             return Err(format!("--size {bad}: must be positive and finite"));
         }
         let half = |i: usize| (size[i] / 2.0) as f32;
-        let failed = |e: Error| format!("--size: {e}");
         let body = match kind {
             Kind::Ball => Body::Shape(SharedShape::ball(half(0))),
             Kind::Box => Body::Shape(SharedShape::cuboid(half(0), half(1), half(2))),
             Kind::Cylinder => Body::Shape(SharedShape::cylinder(half(1), half(0))),
             Kind::Cone => Body::Shape(SharedShape::cone(half(1), half(0))),
             Kind::Capsule => Body::Shape(SharedShape::capsule_y(half(1) - half(0), half(0))),
-            Kind::Ellipsoid | Kind::Leaf => {
-                let ellipsoid = Ellipsoid {
-                    semi_axes: Vector3::new(size[0], size[1], size[2]) / 2.0,
-                };
-                Body::Surface(Surface::ellipsoid(&ellipsoid, 8).map_err(failed)?)
-            }
-            Kind::Airplane => {
-                Body::Sheet(Sheet::paper_airplane(size[0], size[1], 8).map_err(failed)?)
-            }
+            Kind::Ellipsoid | Kind::Leaf => Body::Ellipsoid(Ellipsoid {
+                semi_axes: Vector3::new(size[0], size[1], size[2]) / 2.0,
+            }),
+            Kind::Airplane => Body::Airplane(size[0], size[1]),
         };
         if kind == Kind::Capsule && size[1] <= size[0] {
             return Err("--size: a capsule must be higher than its diameter".into());
@@ -128,6 +130,16 @@ impl Case {
                 BoundaryElementSolution::of_surface(surface, params, progress)
             }
             Body::Sheet(sheet) => BoundaryElementSolution::of_sheet(sheet, params, progress),
+            Body::Ellipsoid(body) => BoundaryElementSolution::of_meshes(
+                |level| Surface::ellipsoid(body, cells(level)),
+                params,
+                progress,
+            ),
+            Body::Airplane(side, thickness) => BoundaryElementSolution::of_sheets(
+                |level| Sheet::paper_airplane(*side, *thickness, 2 * cells(level)),
+                params,
+                progress,
+            ),
         }
     }
 
@@ -135,8 +147,16 @@ impl Case {
     pub fn volume(&self) -> f64 {
         match &self.body {
             Body::Sheet(sheet) => sheet.volume(),
+            Body::Airplane(side, thickness) => {
+                Sheet::paper_airplane(*side, *thickness, 2).map_or(0.0, |s| s.volume())
+            }
+            Body::Ellipsoid(ellipsoid) => ellipsoid.volume(),
             _ => self.surface().map_or(0.0, |s| s.volume_integrals().volume),
         }
+    }
+
+    pub fn is_sheet(&self) -> bool {
+        matches!(self.body, Body::Sheet(_) | Body::Airplane(..))
     }
 
     /// The closed surface, if the body is not a sheet.
@@ -144,7 +164,8 @@ impl Case {
         match &self.body {
             Body::Shape(shape) => Surface::panelled(shape.as_ref(), 8).ok(),
             Body::Surface(surface) => Some(surface.clone()),
-            Body::Sheet(_) => None,
+            Body::Ellipsoid(ellipsoid) => Surface::ellipsoid(ellipsoid, 16).ok(),
+            Body::Sheet(_) | Body::Airplane(..) => None,
         }
     }
 }

@@ -108,7 +108,7 @@ fn run(options: &Options) -> Result<(), String> {
     print(&case, &solution, seconds);
     std::fs::create_dir_all(&options.out).map_err(failed)?;
     let path = options.out.join(format!("added_mass_{}.svg", case.name));
-    picture::draw(&path, &case.name, &solution).map_err(|e| format!("--out: {e}"))?;
+    picture::draw(&path, &case, &solution).map_err(|e| format!("--out: {e}"))?;
     println!("surface potential: {}", path.display());
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! The potential of the six unit motions on the surface of a body.
 
+use crate::case::Case;
 use plotters::prelude::*;
 use rapier3d_immersed::hydro::boundary_element::BoundaryElementSolution;
 use rapier3d_immersed::rapier3d::na::Vector3;
@@ -31,16 +32,29 @@ fn color(value: f64) -> RGBColor {
 
 pub fn draw(
     path: &Path,
-    name: &str,
+    case: &Case,
     solution: &BoundaryElementSolution,
 ) -> Result<(), Box<dyn Error>> {
     let root = SVGBackend::new(path, (1200, 860)).into_drawing_area();
     root.fill(&WHITE)?;
-    let title = format!(
-        "{name}: potential in the fluid, {} panels",
-        solution.report.panels
-    );
+    let what = if case.is_sheet() {
+        "jump of the potential, front minus back"
+    } else {
+        "potential in the fluid"
+    };
+    let title = format!("{}: {what} ({} panels)", case.name, solution.report.panels);
     let root = root.titled(&title, ("sans-serif", 26))?;
+    let (root, legend) = root.split_vertically(770);
+    let label = |x| move |text| Text::new(text, (x, 14), ("sans-serif", 17));
+    legend.draw(&label(285)("negative"))?;
+    legend.draw(&label(835)("positive"))?;
+    for i in 0..46 {
+        let (x, value) = (365 + 10 * i, f64::from(i) / 22.5 - 1.0);
+        legend.draw(&Rectangle::new(
+            [(x, 14), (x + 10, 32)],
+            color(value).filled(),
+        ))?;
+    }
     // Seen from the front, the right and above.
     let eye = Vector3::new(0.55, -0.65, 0.52).normalize();
     let right = Vector3::z().cross(&eye).normalize();
@@ -81,6 +95,14 @@ pub fn draw(
         // Motions that hardly move fluid are left as pale as they are beside the others.
         let group = if motion < 3 { 0..3 } else { 3..6 };
         let overall = group.map(largest).fold(f64::MIN_POSITIVE, f64::max);
+        if largest(motion) < 1e-3 * overall {
+            let style = ("sans-serif", 17).into_font().color(&BLACK.mix(0.6));
+            area.draw(&Text::new(
+                "moves no fluid",
+                (18, height as i32 - 40),
+                style,
+            ))?;
+        }
         for t in &order {
             let mean = t
                 .iter()

@@ -221,4 +221,32 @@ impl BoundaryElementSolution {
         params.check()?;
         refine::adaptively(Body::Sheet(sheet.clone()), params, progress)
     }
+
+    /// Solves for the limit of ever finer meshes of one body that the caller provides, such as a
+    /// curved surface: `mesh(0)`, `mesh(1)` … until their difference meets the tolerance. Each should
+    /// have about twice the panels of the one before.
+    ///
+    /// # Errors
+    /// Those of [`AddedMass::solve`] and of `mesh`.
+    pub fn of_meshes(
+        mut mesh: impl FnMut(usize) -> Result<Surface, Error>,
+        params: &BoundaryElementParams,
+        progress: ProgressFn,
+    ) -> Result<Self, Error> {
+        params.check()?;
+        refine::by_family(params, progress, |level| mesh(level).map(Body::Closed))
+    }
+
+    /// [`BoundaryElementSolution::of_meshes`] for sheets.
+    ///
+    /// # Errors
+    /// Those of [`AddedMass::solve`] and of `mesh`.
+    pub fn of_sheets(
+        mut mesh: impl FnMut(usize) -> Result<Sheet, Error>,
+        params: &BoundaryElementParams,
+        progress: ProgressFn,
+    ) -> Result<Self, Error> {
+        params.check()?;
+        refine::by_family(params, progress, |level| mesh(level).map(Body::Sheet))
+    }
 }

@@ -214,9 +214,9 @@ pub(super) fn adaptively(
 pub(super) fn by_family(
     params: &BoundaryElementParams,
     progress: ProgressFn,
-    mut next: impl FnMut() -> Result<Body, Error>,
+    mut mesh: impl FnMut(usize) -> Result<Body, Error>,
 ) -> Result<BoundaryElementSolution, Error> {
-    let mut body = next()?;
+    let mut body = mesh(0)?;
     check_size(&body, params)?;
     body.check()?;
     let mut levels = Levels::new(params, progress);
@@ -225,7 +225,7 @@ pub(super) fn by_family(
         if levels.done() {
             break;
         }
-        let finer = next()?;
+        let finer = mesh(levels.history.len())?;
         if finer.triangles().len() > params.max_panels {
             break;
         }

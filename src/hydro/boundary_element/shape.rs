@@ -1,6 +1,5 @@
 //! Rapier's shapes: meshed to an accuracy.
 
-use super::refine::{self, Body};
 use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn};
 use crate::Error;
 use crate::geometry::{Ellipsoid, Surface};
@@ -85,11 +84,12 @@ impl BoundaryElementSolution {
         if !Surface::follows_cells(shape) {
             return Self::of_surface(&Surface::from_shape(shape)?, params, progress);
         }
-        let mut cells = FIRST_CELLS;
-        refine::by_family(params, progress, || {
-            let surface = Surface::panelled(shape, cells)?;
-            cells += cells.div_ceil(2);
-            Ok(Body::Closed(surface))
-        })
+        let mesh = |level| Surface::panelled(shape, cells(level));
+        Self::of_meshes(mesh, params, progress)
     }
+}
+
+/// Cells of each mesh: half as many again as the one before, 6, 9, 14, 21, 32 …
+fn cells(level: usize) -> usize {
+    (0..level).fold(FIRST_CELLS, |cells, _| cells + cells.div_ceil(2))
 }
