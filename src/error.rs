@@ -96,6 +96,15 @@ pub enum Error {
         at: [f64; 3],
     },
 
+    /// One of several closed parts of a mesh is turned inside out.
+    #[error("the part of the mesh around {center:?}, with triangle {triangle}, is inside out")]
+    InsideOut {
+        /// Index of a triangle of the part.
+        triangle: usize,
+        /// Center of its bounding box, m.
+        center: [f64; 3],
+    },
+
     /// A mesh is larger than the solver was allowed to take on.
     #[error("the mesh has {panels} triangles, more than max_panels = {max_panels}")]
     TooManyPanels {

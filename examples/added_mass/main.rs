@@ -31,16 +31,16 @@ struct Options {
     shape: case::Kind,
     /// Full extents in m, comma separated: x,y,z (box, ellipsoid, leaf), diameter,height (cylinder,
     /// cone, capsule), diameter (ball), side,thickness (airplane).
-    #[arg(long, value_delimiter = ',')]
+    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     size: Vec<f64>,
     /// A closed triangle mesh (Wavefront OBJ, m) instead of a shape.
     #[arg(long)]
     mesh: Option<PathBuf>,
     /// The mesh is a sheet of this thickness, m, and need not be closed.
-    #[arg(long, requires = "mesh")]
+    #[arg(long, requires = "mesh", allow_negative_numbers = true)]
     thickness: Option<f64>,
     /// Relative error to refine to.
-    #[arg(long, default_value_t = 0.01)]
+    #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
     tolerance: f64,
     /// Most panels to use.
     #[arg(long, default_value_t = 6000)]

@@ -52,6 +52,63 @@ pub(crate) fn check_triangles(
     Ok(())
 }
 
+/// Every part of a closed mesh encloses a positive volume, unless it is a cavity of another part.
+#[cfg_attr(not(feature = "bake"), allow(dead_code))]
+pub(crate) fn check_parts(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> Result<(), Error> {
+    struct Part {
+        volume: f64,
+        low: Vector3<f64>,
+        high: Vector3<f64>,
+        first: usize,
+    }
+    let mut parent: Vec<usize> = (0..vertices.len()).collect();
+    fn root(parent: &mut [usize], mut i: usize) -> usize {
+        while parent[i] != i {
+            parent[i] = parent[parent[i]];
+            i = parent[i];
+        }
+        i
+    }
+    for [a, b, c] in triangles {
+        for other in [*b, *c] {
+            let (i, j) = (
+                root(&mut parent, *a as usize),
+                root(&mut parent, other as usize),
+            );
+            parent[i.max(j)] = i.min(j);
+        }
+    }
+    let mut parts: std::collections::BTreeMap<usize, Part> = Default::default();
+    for (first, t) in triangles.iter().enumerate() {
+        let key = root(&mut parent, t[0] as usize);
+        // Each part's volume from one of its own vertices.
+        let [a, b, c] = t.map(|i| vertices[i as usize]);
+        let part = parts.entry(key).or_insert(Part {
+            volume: 0.0,
+            low: a,
+            high: a,
+            first,
+        });
+        let origin = vertices[key];
+        part.volume += (a - origin).dot(&(b - origin).cross(&(c - origin))) / 6.0;
+        part.low = part.low.inf(&a).inf(&b).inf(&c);
+        part.high = part.high.sup(&a).sup(&b).sup(&c);
+    }
+    for part in parts.values().filter(|p| p.volume < 0.0) {
+        let inside = |other: &Part| {
+            other.volume > -part.volume
+                && (0..3).all(|k| other.low[k] < part.low[k] && part.high[k] < other.high[k])
+        };
+        if !parts.values().any(inside) {
+            return Err(Error::InsideOut {
+                triangle: part.first,
+                center: ((part.low + part.high) / 2.0).into(),
+            });
+        }
+    }
+    Ok(())
+}
+
 /// No two triangles pass through each other or lie on each other, unless they share a vertex.
 #[cfg_attr(not(feature = "bake"), allow(dead_code))]
 pub(crate) fn check_intersections(
@@ -162,6 +219,31 @@ mod tests {
             // Both boxes contain the point that is named.
             assert!(at[0] >= f64::from(distance) - 0.5 - 1e-6 && at[0] <= 0.5 + 1e-6);
         }
+    }
+
+    /// A part turned inside out is an error, a cavity is not.
+    #[test]
+    fn inside_out_parts_are_found() {
+        let part = |half: f32| {
+            Surface::from_shape(SharedShape::cuboid(half, half, half).as_ref()).unwrap()
+        };
+        let with_inverted = |small: Surface| {
+            let mut whole = part(1.0);
+            let mut vertices = whole.vertices().to_vec();
+            let start = vertices.len() as u32;
+            vertices.extend_from_slice(small.vertices());
+            let mut triangles = whole.triangles().to_vec();
+            let turned = |[a, b, c]: &[u32; 3]| [a + start, c + start, b + start];
+            triangles.extend(small.triangles().iter().map(turned));
+            whole = Surface::new(&vertices, &triangles).unwrap();
+            check_parts(whole.vertices(), whole.triangles())
+        };
+        assert_eq!(with_inverted(part(0.5)), Ok(()));
+        let beside = with_inverted(part(0.5).map(|v| v + Vector3::x() * 3.0));
+        let Err(Error::InsideOut { center, .. }) = beside else {
+            panic!("{beside:?}");
+        };
+        assert_eq!(center, [3.0, 0.0, 0.0]);
     }
 
     #[test]

@@ -9,9 +9,38 @@
 //! added mass converges from one side with twice the order of the potential; and nothing degenerates
 //! when two faces approach: a leaf needs no more panels than a ball.
 //!
+//! # Thin bodies
+//! A closed surface is solved as such however thin it is: an ellipsoid 10⁻⁵ as thick as long, on 1280
+//! panels, is right to 0.2 %. There is no thickness at which to switch to another formulation, and
+//! none is switched to; [`Sheet`] is for meshes that have no thickness to begin with. What thin
+//! bodies do lose is the relative accuracy of entries that are tiny beside the others: the added mass
+//! of a leaf in its own plane, 10⁻⁴ of the broadside one, is right in its order of magnitude only.
+//!
+//! # When the proxy ellipsoid will do
+//! Difference between the ellipsoid with the same three shadows and the shape, measured with the
+//! `added_mass` example; rotations relative to the larger of added and displaced inertia.
+//!
+//! | shape | translation | rotation |
+//! |---|---|---|
+//! | ellipsoid, ball, elliptic disc | 0 | 0 |
+//! | box 1 × 1 × 0.05 | 6 % | 11 % |
+//! | box 1 × 2 × 0.05 | 5 % | 12 % |
+//! | cube | 41 % | 24 % |
+//! | box 1 × 1 × 10 | 35 % | 43 % |
+//! | coin, diameter 1, height 0.1 | 16 % | 19 % |
+//! | cylinder, diameter 1, height 2 | 20 % | 7 % |
+//! | cylinder, diameter 1, height 10 | 12 % | 5 % |
+//! | cone, diameter 1, height 2 | 4 % | 50 % |
+//! | capsule, diameter 1, length 2 | 8 % | 5 % |
+//!
 //! # Cost
-//! Half as many unknowns as panels. Memory is `4 × panels²` bytes (100 MB for 5000 panels); work
-//! grows as `panels²` up to some 5000 panels, where the factorisation, `panels³/24`, takes over.
+//! Half as many unknowns as panels. Processor time on one core (divide by the cores) for a ball of
+//! 320, 1280, 5120 and 9680 panels: 0.010, 0.09, 1.4 and 4.9 s, growing as panels to the power 1.6,
+//! 1.9, 2.0; a leaf takes about twice as long. Memory: `4 × panels²` bytes, 100 MB for 5000 panels.
+//!
+//! The solve is direct. Even at 9680 panels the factorisation is an eighth of the work and the rest
+//! is integration, so that an iterative solver would gain next to nothing; going further needs a
+//! compressed matrix, and by then the error of the added mass is far below that of the shape.
 
 mod assemble;
 mod cache;
@@ -44,7 +73,8 @@ pub struct BoundaryElementParams {
     /// Default: 4; 8 changes the result by 5·10⁻⁵.
     pub touching_levels: u32,
     /// How many times at most a panel is halved toward the edges of another that is close, such as
-    /// the opposite face of a leaf. Default: 14.
+    /// the opposite face of a leaf. Extremely thin bodies need more and get it: a matrix that is not
+    /// positive definite is integrated again with four more, twice. Default: 8.
     pub close_levels: u32,
 }
 
@@ -55,7 +85,7 @@ impl Default for BoundaryElementParams {
             max_panels: 6000,
             far: 1.5,
             touching_levels: 4,
-            close_levels: 14,
+            close_levels: 8,
         }
     }
 }
@@ -119,7 +149,7 @@ pub struct BoundaryElementReport {
     /// Largest difference, relative in the same way, between two ways to compute the coupling and
     /// between transposed entries, before they were averaged: the error of the quadrature.
     pub asymmetry: f64,
-    /// Whether the matrix was positive definite. If not, quadrature has lost to the thinness of the
+    /// Whether the matrix was positive definite in the end. If not, quadrature has lost to the thinness of the
     /// body, and the result is not to be trusted.
     pub definite: bool,
     /// Panels of every mesh that was solved, and the relative change from the one before it.

@@ -26,6 +26,10 @@ const LEAST_MARKED: f64 = 0.25;
 const DEFAULT_RATIO: f64 = 0.5;
 const RATIO_BOUNDS: (f64, f64) = (0.3, 0.7);
 
+/// How often a matrix that is not positive definite, which only quadrature can be the cause of, is
+/// integrated again with finer close panels.
+const RETRIES: usize = 2;
+
 /// What can be meshed.
 #[derive(Clone, Debug)]
 pub(super) enum Body {
@@ -50,6 +54,9 @@ impl Body {
 
     fn check(&self) -> Result<(), Error> {
         quality::check_triangles(self.vertices(), self.triangles())?;
+        if let Self::Closed(_) = self {
+            quality::check_parts(self.vertices(), self.triangles())?;
+        }
         quality::check_intersections(self.vertices(), self.triangles())
     }
 
@@ -101,7 +108,7 @@ impl<'a> Levels<'a> {
     fn solve(&mut self, body: &Body) {
         let mut problem = body.problem();
         let (level, panels) = (self.history.len(), problem.panels.len());
-        let near_field = NearField {
+        let mut near_field = NearField {
             far: self.params.far,
             touching_levels: self.params.touching_levels,
             close_levels: self.params.close_levels,
@@ -111,13 +118,22 @@ impl<'a> Levels<'a> {
         } else {
             problem.recenter(self.center);
         }
-        let solution = problem.solve(&near_field, &|share| {
+        let report = |share| {
             (self.progress)(BoundaryElementProgress {
                 level,
                 panels,
                 share,
             });
-        });
+        };
+        let mut solution = problem.solve(&near_field, &report);
+        for _ in 0..RETRIES {
+            if solution.definite {
+                break;
+            }
+            near_field.touching_levels += 2;
+            near_field.close_levels += 4;
+            solution = problem.solve(&near_field, &report);
+        }
         self.added_mass = solution.added_mass;
         let mut change = f64::INFINITY;
         if let Some((_, before)) = &self.last {
