@@ -72,7 +72,7 @@ fn run(options: &Options) -> Result<(), String> {
         std::fs::create_dir_all(&options.out).map_err(failed)?;
         return error_figure::draw(&options.out.join("added_mass_error.svg"));
     }
-    if !(options.tolerance > 0.0) {
+    if options.tolerance.is_nan() || options.tolerance <= 0.0 {
         return Err(format!(
             "--tolerance {}: must be positive",
             options.tolerance

@@ -42,7 +42,9 @@ pub(crate) fn check_triangles(
         let [a, b, c] = t.map(|i| vertices[i as usize]);
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
         let height = (b - a).cross(&(c - a)).norm() / longest;
-        if !(height > NEEDLE * longest) {
+        // Of a point, 0/0: not a number is no proper height.
+        let proper = height > NEEDLE * longest;
+        if !proper {
             return Err(Error::DegenerateTriangle {
                 triangle,
                 at: ((a + b + c) / 3.0).into(),

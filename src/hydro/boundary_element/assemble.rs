@@ -234,8 +234,8 @@ fn row(
             };
             if !felt.is_empty() {
                 far.first_p = x[0] * r[0] + x[1] * r[1] + x[2] * r[2];
-                for k in 0..3 {
-                    far.first_q += points.point(k, q) * c[k];
+                for (k, sum) in c.iter().enumerate() {
+                    far.first_q += points.point(k, q) * *sum;
                 }
             }
             far

@@ -60,8 +60,6 @@ impl Panel {
         }
     }
 
-    /// Length of the longest edge, m.
-
     /// Surface curls `n × ∇λ_i` of the three hat functions, constant on the panel, 1/m.
     pub fn curls(&self) -> [Vector3<f64>; 3] {
         // The edge opposite of corner i, over twice the area.
