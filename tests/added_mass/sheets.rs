@@ -84,3 +84,18 @@ fn coarse_sheet_is_refined() {
     assert!(report.converged, "{report:?}");
     assert_within(plate.linear[(2, 2)] / (PI / 4.0), 0.57901, 0.02, "square");
 }
+
+/// A sheet all of whose vertices lie on its rim has no unknown: as it is it moves nothing, refined it
+/// does.
+#[test]
+fn sheet_without_unknowns() {
+    let sheet = Sheet::rectangle(1.0, 1.0, 0.001, 1).unwrap();
+    assert_eq!(sheet.triangles().len(), 2);
+    assert_eq!(solve(&sheet).linear.norm(), 0.0);
+    let params = BoundaryElementParams {
+        tolerance: 0.05,
+        ..BoundaryElementParams::default()
+    };
+    let (refined, _) = AddedMass::solve_sheet(&sheet, &params).unwrap();
+    assert_within(refined.linear[(2, 2)] / (PI / 4.0), 0.57901, 0.05, "square");
+}

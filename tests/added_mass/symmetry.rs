@@ -1,8 +1,10 @@
 //! What must hold for every body, whatever its added mass.
 
 use crate::as_is;
+use rapier3d_immersed::Error;
 use rapier3d_immersed::geometry::{Sheet, Surface};
 use rapier3d_immersed::hydro::AddedMass;
+use rapier3d_immersed::hydro::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::rapier3d::math::{Pose, Vector};
 use rapier3d_immersed::rapier3d::na::{Rotation3, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
@@ -111,7 +113,7 @@ fn moving_a_sheet_moves_the_tensor() {
     assert!(added.coupling[(2, 1)].abs() > 1e-2 * added.coupling.norm());
 }
 
-/// The tetrahedral order of additions is fixed: the same digits whatever the number of threads.
+/// The order of additions is fixed: the same digits whatever the number of threads.
 #[test]
 fn threads_do_not_matter() {
     let body = half_cone();
@@ -122,4 +124,64 @@ fn threads_do_not_matter() {
     let difference = difference(&in_pool(1), &in_pool(3));
     // The assembly is the same to the last bit; the factorisation blocks by thread.
     assert!(difference < 1e-12, "{difference}");
+}
+
+/// Whatever is wrong with the input is named.
+#[test]
+fn bad_input_is_an_error() {
+    let body = half_cone();
+    for (params, culprit) in [
+        (
+            BoundaryElementParams {
+                tolerance: f64::NAN,
+                ..as_is()
+            },
+            "tolerance",
+        ),
+        (
+            BoundaryElementParams {
+                max_panels: 0,
+                ..as_is()
+            },
+            "max_panels",
+        ),
+        (
+            BoundaryElementParams {
+                far: 0.5,
+                ..as_is()
+            },
+            "far",
+        ),
+        (
+            BoundaryElementParams {
+                close_levels: 99,
+                ..as_is()
+            },
+            "close_levels",
+        ),
+    ] {
+        match AddedMass::solve(&body, &params) {
+            Err(Error::InvalidParameter { parameter, .. }) => assert_eq!(parameter, culprit),
+            other => panic!("{culprit}: {other:?}"),
+        }
+    }
+    let small = BoundaryElementParams {
+        max_panels: 10,
+        ..as_is()
+    };
+    let too_many = AddedMass::solve(&body, &small).unwrap_err();
+    assert!(
+        matches!(too_many, Error::TooManyPanels { max_panels: 10, .. }),
+        "{too_many}"
+    );
+
+    let part = SharedShape::cuboid(0.5, 0.5, 0.5);
+    let poses = [0.0, 0.7].map(|x| Pose::from_translation(Vector::X * x));
+    let overlapping = SharedShape::compound(poses.map(|p| (p, part.clone())).to_vec());
+    let error = AddedMass::of_shape(overlapping.as_ref(), Vector::ZERO, 0.1).unwrap_err();
+    assert!(matches!(error, Error::SelfIntersection { .. }), "{error}");
+    let nowhere = AddedMass::of_shape(part.as_ref(), Vector::NAN, 0.1);
+    assert!(nowhere.is_err() && AddedMass::of_shape(part.as_ref(), Vector::ZERO, 0.0).is_err());
+    let plane = SharedShape::halfspace(Vector::Y);
+    assert!(AddedMass::of_shape(plane.as_ref(), Vector::ZERO, 0.1).is_err());
 }

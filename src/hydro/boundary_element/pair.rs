@@ -135,3 +135,64 @@ fn integrate(outer: [Vector3<f64>; 3], area: f64, inner: &Panel, levels: u32, su
         sum.first_q += potential.first * w;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    const DEEP: NearField = NearField {
+        far: 1.5,
+        touching_levels: 12,
+        close_levels: 12,
+    };
+    const DEFAULT: NearField = NearField {
+        far: 1.5,
+        touching_levels: 4,
+        close_levels: 8,
+    };
+
+    fn panel(corners: [[f64; 3]; 3]) -> Panel {
+        Panel::new(corners.map(Vector3::from))
+    }
+
+    /// The mean of 1/r between two points of the unit square is 4 ln(1+√2) − 4/3 (√2−1) (a
+    /// classical result for the capacitance of a plate). The square's two halves touch along the
+    /// diagonal.
+    #[test]
+    fn unit_square_from_its_halves() {
+        let p = panel([[0., 0., 0.], [1., 0., 0.], [1., 1., 0.]]);
+        let q = panel([[0., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
+        let root = 2f64.sqrt();
+        let exact = 4.0 * (1.0 + root).ln() - 4.0 / 3.0 * (root - 1.0);
+        // Each two levels halve the strip along the diagonal that is not resolved, and the share of
+        // the integral that is at stake there falls with its square.
+        for (near_field, tolerance) in [(DEFAULT, 1e-3), (DEEP, 1e-5)] {
+            let both = near_field.moments(&p, &q, true);
+            let sum = p.self_interaction() + q.self_interaction() + 2.0 * both.uniform;
+            assert_relative_eq!(sum, exact, max_relative = tolerance);
+            // By symmetry the mean of x + y over the square is its center.
+            let [own_p, own_q] = [&p, &q].map(|p| near_field.self_moments(p).first_p);
+            let first = own_p + own_q + both.first_p + both.first_q;
+            assert_relative_eq!(first.x, exact / 2.0, max_relative = tolerance);
+            assert_relative_eq!(first.y, exact / 2.0, max_relative = tolerance);
+        }
+    }
+
+    /// Opposite faces of a leaf, much closer than they are wide: the default against a far deeper
+    /// quadrature, and either panel taken as the outer one.
+    #[test]
+    fn opposite_panels() {
+        let lower = panel([[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]]);
+        for distance in [0.3, 0.03, 0.003] {
+            let d = distance;
+            let upper = panel([[0., 0., d], [0.0, 1.1, d], [1.1, 0.0, d]]);
+            let deep = DEEP.moments(&lower, &upper, false);
+            let found = DEFAULT.moments(&lower, &upper, false);
+            assert_relative_eq!(found.uniform, deep.uniform, max_relative = 1e-4);
+            assert_relative_eq!(found.first_q, deep.first_q, max_relative = 2e-4);
+            let swapped = DEFAULT.moments(&upper, &lower, false);
+            assert_relative_eq!(swapped.first_p, found.first_q, max_relative = 1e-12);
+        }
+    }
+}
