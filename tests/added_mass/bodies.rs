@@ -3,7 +3,7 @@
 use crate::{as_is, assert_within, ellipsoid, solve_ellipsoid};
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::hydro::AddedMass;
-use rapier3d_immersed::hydro::boundary_element::BoundaryElementParams;
+use rapier3d_immersed::hydro::boundary_element::{BoundaryElementParams, BoundaryElementSolution};
 use rapier3d_immersed::rapier3d::math::Vector;
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
 
@@ -187,4 +187,40 @@ fn coarse_mesh_is_refined() {
     assert!(!report.converged && report.panels <= 600);
     let (_, once) = AddedMass::solve(&box_, &as_is()).unwrap();
     assert_eq!((once.panels, once.estimated_error), (12, None));
+}
+
+/// Every kind of shape that encloses a volume can be solved for. Rounded shapes come with some
+/// thousand panels of their own and are solved for as they are.
+#[test]
+fn every_kind_of_shape() {
+    let hull = [Vector::X, Vector::Y, Vector::Z, Vector::ZERO, Vector::ONE];
+    for shape in [
+        SharedShape::ball(0.5),
+        SharedShape::capsule_y(0.5, 0.3),
+        SharedShape::cone(0.5, 0.3),
+        SharedShape::convex_hull(&hull).unwrap(),
+        SharedShape::round_cuboid(0.5, 0.4, 0.3, 0.1),
+        SharedShape::voxels_from_points(Vector::splat(0.5), &[Vector::ZERO, Vector::X]),
+    ] {
+        let kind = format!("{:?}", shape.shape_type());
+        let params = BoundaryElementParams {
+            tolerance: 0.2,
+            max_panels: 2500,
+            ..BoundaryElementParams::default()
+        };
+        let solved = BoundaryElementSolution::of_shape(shape.as_ref(), &params, &|_| ()).unwrap();
+        let (added, report) = (solved.added_mass, solved.report);
+        println!(
+            "{kind}: {} panels, error {:?}",
+            report.panels, report.estimated_error
+        );
+        assert!(report.definite && added.is_physical(), "{kind}: {report:?}");
+        // A sphere has ½, a cube 0.64; flatter or more angular bodies up to about twice that.
+        let volume = Surface::from_shape(shape.as_ref())
+            .unwrap()
+            .volume_integrals()
+            .volume;
+        let mean = added.linear.trace() / 3.0 / volume;
+        assert!((0.3..1.5).contains(&mean), "{kind}: {mean}");
+    }
 }

@@ -35,7 +35,7 @@ pub fn solve_ellipsoid(body: &Ellipsoid, cells: usize) -> AddedMass {
 #[track_caller]
 pub fn assert_within(found: f64, expected: f64, relative: f64, what: &str) {
     let error = found / expected - 1.0;
-    println!("{what}: {found:.6} for {expected:.6}, {error:+.2e}");
+    println!("{what}: {found:.5e} for {expected:.5e}, {error:+.2e}");
     assert!(
         error.abs() <= relative,
         "{what}: {found} for {expected}, {error:+.2e}"

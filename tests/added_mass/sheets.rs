@@ -18,7 +18,8 @@ fn circular_disc() {
     assert_within(disc.angular[(0, 0)], 16.0 / 45.0, 0.01, "about a diameter");
     assert_within(disc.angular[(1, 1)], 16.0 / 45.0, 0.01, "about the other");
     // Nothing else moves fluid.
-    assert!(disc.linear[(0, 0)].abs() < 1e-12 && disc.angular[(2, 2)].abs() < 1e-12);
+    assert!(disc.linear[(0, 0)].abs() < 1e-11 && disc.angular[(2, 2)].abs() < 1e-11);
+    assert!(disc.is_physical());
     assert!(disc.coupling.norm() < 1e-3);
 }
 
@@ -91,7 +92,7 @@ fn coarse_sheet_is_refined() {
 fn sheet_without_unknowns() {
     let sheet = Sheet::rectangle(1.0, 1.0, 0.001, 1).unwrap();
     assert_eq!(sheet.triangles().len(), 2);
-    assert_eq!(solve(&sheet).linear.norm(), 0.0);
+    assert!(solve(&sheet).linear.norm() < 1e-12);
     let params = BoundaryElementParams {
         tolerance: 0.05,
         ..BoundaryElementParams::default()

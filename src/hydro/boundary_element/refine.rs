@@ -167,7 +167,7 @@ impl<'a> Levels<'a> {
             return Err(Error::EmptyMesh);
         };
         Ok(BoundaryElementSolution {
-            added_mass: self.added_mass,
+            added_mass: solution.scale.positive(&self.added_mass),
             center: self.center,
             report: BoundaryElementReport {
                 panels: problem.panels.len(),

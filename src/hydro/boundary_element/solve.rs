@@ -7,7 +7,7 @@ use crate::geometry::{Sheet, Surface, VolumeIntegrals};
 use crate::hydro::AddedMass;
 use faer::linalg::solvers::{Lblt, Llt, Solve};
 use faer::{Mat, MatRef, Side};
-use rapier3d::na::{Matrix3, Matrix6, Vector3};
+use rapier3d::na::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// A triangle mesh ready to be solved: centred, with its unknowns numbered.
 pub(super) struct Problem {
@@ -325,6 +325,10 @@ impl Problem {
     }
 }
 
+/// Energy, relative to that of the broadest motion, that is left to one that moves no fluid: above
+/// rounding, so that the tensor stays positive in all later arithmetic.
+const LEAST_ENERGY: f64 = 1e-12;
+
 /// Magnitudes that errors of the blocks are relative to; the same in all axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
@@ -351,6 +355,24 @@ impl Scale {
         } else {
             self.angular
         }
+    }
+
+    /// The nearest tensor without negative energies. Motions that hardly move fluid, such as the spin
+    /// of a disc, come out as zero give or take the error, and run time must not see the latter half.
+    pub fn positive(&self, added_mass: &AddedMass) -> AddedMass {
+        let unit = Vector6::from_fn(|i, _| self.of_motion(i).sqrt());
+        let scaled = added_mass
+            .to_matrix6()
+            .map_with_location(|i, j, x| x / (unit[i] * unit[j]));
+        let mut eigen = scaled.symmetric_eigen();
+        if eigen.eigenvalues.min() >= LEAST_ENERGY {
+            return *added_mass;
+        }
+        eigen
+            .eigenvalues
+            .apply(|energy| *energy = energy.max(LEAST_ENERGY));
+        let positive = eigen.recompose();
+        AddedMass::from_matrix6(&positive.map_with_location(|i, j, x| x * unit[i] * unit[j]))
     }
 
     /// The norm of each block of a difference relative to its scale; the largest.
