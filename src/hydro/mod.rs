@@ -1,6 +1,10 @@
 //! What the fluid feels of a shape, and how it pushes back.
 
 pub mod added_mass;
+#[cfg(feature = "bake")]
+pub mod boundary_element;
+#[cfg(feature = "serde-serialize")]
+mod file;
 pub mod planform;
 pub mod properties;
 pub mod viscous;
