@@ -1,0 +1,190 @@
+//! Langevin equations in closed form: what a step of any length does to a fluctuating velocity.
+//!
+//! The thesis (§4.3) adds random increments to the body's own velocity. The default here is the
+//! physical one: the *fluid velocity that the body sees* fluctuates, and the body follows it as its
+//! drag and added mass let it, so heavy bodies filter the turbulence and light ones follow.
+
+use super::TurbulenceState;
+use rapier3d::math::{Real, Vector};
+
+/// C₀ of the Langevin equation, 6.5 (1 + 140 Re_λ^(−4/3))^(−3/4), of the *square* of the Taylor-scale
+/// Reynolds number (see [`TurbulenceState::taylor_reynolds_squared`]).
+///
+/// Pope (2011), Phys. Fluids 23, 075104; the thesis (4.10)–(4.11) inserts the body's Reynolds
+/// number, which overstates C₀. Tends to 6.5 for strong turbulence, to 0 for weak.
+#[inline]
+pub fn kolmogorov_constant(taylor_reynolds_squared: Real) -> Real {
+    let root = taylor_reynolds_squared.cbrt();
+    let x = 1.0 + 140.0 / (root * root);
+    // x^(−3/4) by square roots, which are several times cheaper than a power.
+    let root = x.sqrt();
+    6.5 / (root * root.sqrt())
+}
+
+/// The velocity fluctuation of the fluid around one body, as an Ornstein–Uhlenbeck process.
+///
+/// What is stored is the fluctuation divided by its standard deviation √(2k/3). Its equation
+/// dg = −¾C₀χ g dt + √(3/2 C₀χ) dW is thesis (4.8) divided by √(2k/3): the ½χ in the thesis's drift is
+/// the decay of k itself. So ⟨u²⟩ = ⅔k per component *exactly*, for steady, decaying or growing
+/// k, for every time step; and one step of length dt is many small ones.
+///
+/// In space the process knows only the local k: where k varies strongly, fluid tracers (not heavy bodies)
+/// would need a drift along ∇k to stay evenly mixed, which is left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct SeenFluctuation {
+    /// Fluctuation over standard deviation, world axes. Zero: starts in quiet fluid.
+    pub normalized: Vector,
+}
+
+impl SeenFluctuation {
+    /// A body that has been in the turbulence for long: `noise` is three standard Gaussian numbers.
+    pub fn stationary(noise: Vector) -> Self {
+        Self { normalized: noise }
+    }
+
+    /// One step of `dt` seconds; returns the velocity fluctuation at its end, m/s, world axes.
+    ///
+    /// `c0` is [`kolmogorov_constant`] of the state, `noise` three standard Gaussian numbers of this
+    /// body and step. `relative_speed` is the body's mean speed through the fluid (m/s): a body that
+    /// falls through the eddies sees them pass faster than a tracer does, which shortens the memory
+    /// by √(1 + u_r²/(⅔k)) (Csanady 1963, with Lagrangian and Eulerian time scales taken as equal). 0 for
+    /// a tracer.
+    #[inline]
+    pub fn advance(
+        &mut self,
+        state: &TurbulenceState,
+        c0: Real,
+        relative_speed: Real,
+        dt: Real,
+        noise: Vector,
+    ) -> Vector {
+        let k = state.kinetic_energy;
+        if !(k > 0.0) {
+            return Vector::ZERO;
+        }
+        let variance = k * (2.0 / 3.0);
+        let crossing = (1.0 + relative_speed * relative_speed / variance).sqrt();
+        let decay = 0.75 * c0 * state.dissipation / k * crossing * dt;
+        // In f64, so that 1 − e² is accurate when a step is a tiny part of the memory.
+        let kept = (-f64::from(decay)).exp();
+        let fresh = (1.0 - kept * kept).max(0.0).sqrt();
+        self.normalized = self.normalized * kept as Real + noise * fresh as Real;
+        self.normalized * variance.sqrt()
+    }
+}
+
+/// The thesis's mode: the body's velocity relative to the local mean flow after `dt` seconds of
+/// dv = −(½ + ¾C₀)χ v dt + √(C₀ε) dW, thesis (4.12) with the exact update instead of (4.14)'s Euler step.
+///
+/// `noise` is three standard Gaussian numbers. With frozen k and ε the variance of v tends to
+/// (⅔k) C₀/(C₀ + ⅔).
+#[inline]
+pub fn relative_velocity_after(
+    relative_velocity: Vector,
+    state: &TurbulenceState,
+    c0: Real,
+    dt: Real,
+    noise: Vector,
+) -> Vector {
+    let alpha = (0.5 + 0.75 * c0) * state.turnover_rate();
+    let kept = (-f64::from(alpha * dt)).exp();
+    let spread = if alpha > 0.0 {
+        f64::from(c0 * state.dissipation / (2.0 * alpha)) * (1.0 - kept * kept)
+    } else {
+        0.0
+    };
+    relative_velocity * kept as Real + noise * spread.max(0.0).sqrt() as Real
+}
+
+/// The thesis's mode: random change of the body's spin in `dt` seconds, √(C₀ε dt)/L, rad/s.
+///
+/// Thesis (4.13) without the length L of the body (m) would be a velocity. Nothing here takes the spin away
+/// again: the vortical loads have to (thesis §4.3.2).
+#[inline]
+pub fn spin_increment(
+    state: &TurbulenceState,
+    c0: Real,
+    length: Real,
+    dt: Real,
+    noise: Vector,
+) -> Vector {
+    noise * ((c0 * state.dissipation * dt).max(0.0).sqrt() / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pope (2011): values at five Reynolds numbers, to three digits.
+    #[test]
+    fn kolmogorov_constant_of_the_taylor_scale() {
+        for (reynolds, c0) in [
+            (50.0, 4.25),
+            (100.0, 5.33),
+            (200.0, 5.97),
+            (500.0, 6.33),
+            (1000.0, 6.43),
+        ] {
+            let found = kolmogorov_constant(reynolds * reynolds);
+            assert!((found - c0).abs() < 5.1e-3, "{reynolds}: {found}");
+        }
+        assert_eq!(kolmogorov_constant(0.0), 0.0);
+        assert_eq!(kolmogorov_constant(f32::INFINITY), 6.5);
+    }
+
+    /// One long step has the same memory and the same spread as many short ones.
+    #[test]
+    fn steps_compose() {
+        let state = TurbulenceState {
+            kinetic_energy: 0.6,
+            dissipation: 2.0,
+        };
+        let one = |dt: f32, n: u32| {
+            // Memory from a start without noise, spread from noise of one in every step.
+            let mut seen = SeenFluctuation::stationary(Vector::X);
+            let mut thesis = Vector::X;
+            let (mut spread, mut thesis_spread) = (0.0, 0.0);
+            for _ in 0..n {
+                seen.advance(&state, 4.0, 0.3, dt, Vector::ZERO);
+                thesis = relative_velocity_after(thesis, &state, 4.0, dt, Vector::ZERO);
+                let mut fresh = SeenFluctuation::default();
+                fresh.advance(&state, 4.0, 0.3, dt, Vector::X);
+                let kept = {
+                    let mut s = SeenFluctuation::stationary(Vector::X);
+                    s.advance(&state, 4.0, 0.3, dt, Vector::ZERO);
+                    s.normalized.x
+                };
+                spread = spread * kept * kept + fresh.normalized.x.powi(2);
+                let fresh = relative_velocity_after(Vector::ZERO, &state, 4.0, dt, Vector::X).x;
+                let kept = relative_velocity_after(Vector::X, &state, 4.0, dt, Vector::ZERO).x;
+                thesis_spread = thesis_spread * kept * kept + fresh * fresh;
+            }
+            [seen.normalized.x, thesis.x, spread, thesis_spread]
+        };
+        for (a, b) in one(0.1, 1).into_iter().zip(one(0.001, 100)) {
+            // A hundred f32 roundings of 6e-8.
+            assert!((a - b).abs() < 1.0e-5, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn no_turbulence_is_no_fluctuation() {
+        let still = TurbulenceState::default();
+        let mut seen = SeenFluctuation::stationary(Vector::ONE);
+        assert_eq!(
+            seen.advance(&still, 0.0, 0.0, 0.1, Vector::ONE),
+            Vector::ZERO
+        );
+        assert!(seen.normalized.is_finite());
+        let v = relative_velocity_after(Vector::X, &still, 0.0, 0.1, Vector::ONE);
+        assert_eq!(v, Vector::X);
+        assert_eq!(
+            spin_increment(&still, 6.5, 0.1, 0.1, Vector::ONE),
+            Vector::ZERO
+        );
+    }
+}
