@@ -5,6 +5,8 @@
 //! turns that into the fluctuating velocity that one body sees ([`SeenFluctuation`]), driven by a
 //! random stream of its own ([`NoiseStream`]).
 
+#[cfg(feature = "bake")]
+pub mod grid;
 mod k_epsilon;
 mod langevin;
 mod noise;
