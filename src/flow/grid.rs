@@ -47,15 +47,10 @@ impl GridFlow {
             velocities.len() == lattice.len(),
             "the product of the grid's dimensions",
         )?;
-        let nodes = velocities
-            .iter()
-            .map(|velocity| {
-                for x in velocity.to_array() {
-                    Error::check_finite("velocity", x.into())?;
-                }
-                Ok(velocity.extend(0.0))
-            })
-            .collect::<Result<_, Error>>()?;
+        for x in velocities.iter().flat_map(|velocity| velocity.to_array()) {
+            Error::check_finite("velocity", x.into())?;
+        }
+        let nodes = lattice.pad(|node| velocities[node].extend(0.0));
         Ok(Self {
             lattice,
             nodes,
@@ -94,7 +89,7 @@ impl GridFlow {
 
     /// Velocities at the nodes, m/s, in the order of [`GridFlow::new`].
     pub fn velocities(&self) -> impl Iterator<Item = Vector> + '_ {
-        self.nodes.iter().map(|node| node.truncate())
+        self.lattice.unpad(&self.nodes).map(|node| node.truncate())
     }
 
     /// The file: after magic and version the dimensions and a bit mask of periodic axes (`u64`),
@@ -161,6 +156,9 @@ impl GridFlow {
     /// How far the pattern has been carried, m; wrapped in `f64`, so that it stays precise for as
     /// long as the flow lasts.
     fn carried(&self, time: f64) -> Vector {
+        if self.drift == Vector::ZERO {
+            return Vector::ZERO;
+        }
         let wrap = |axis: usize, drift: f32| {
             let way = f64::from(drift) * time;
             if self.lattice.periodic[axis] {
@@ -182,19 +180,21 @@ impl GridFlow {
 impl Flow for GridFlow {
     fn velocity(&self, point: Vector, time: f64) -> Vector {
         let cell = self.lattice.locate(point - self.carried(time));
-        self.lattice.value(&cell, |i| self.nodes[i]).truncate()
+        self.lattice
+            .value(&cell, &self.nodes, |node| *node)
+            .truncate()
     }
 
     fn vorticity(&self, point: Vector, time: f64) -> Vector {
         let cell = self.lattice.locate(point - self.carried(time));
-        self.lattice.jet(&cell, |i| self.nodes[i]).curl()
+        self.lattice.jet(&cell, &self.nodes, |node| *node).curl()
     }
 
     fn sample(&self, points: &[Vector], time: f64, samples: &mut [FlowSample]) {
         let carried = self.carried(time);
         for (point, sample) in points.iter().zip(samples) {
             let cell = self.lattice.locate(*point - carried);
-            let jet = self.lattice.jet(&cell, |i| self.nodes[i]);
+            let jet = self.lattice.jet(&cell, &self.nodes, |node| *node);
             sample.velocity = jet.value.truncate();
             sample.vorticity = jet.curl();
         }

@@ -7,7 +7,10 @@ use rapier3d::math::{Real, Vector};
 /// Most nodes along one axis, so that products of three fit comfortably into `u64`.
 pub(crate) const MAX_NODES: u64 = 1 << 16;
 
-/// Where the nodes are. Node (i, j, k) is at `origin + (i, j, k)·spacing`, number (k·ny + j)·nx + i.
+/// Where the nodes are. Node (i, j, k) is at `origin + (i, j, k)·spacing`.
+///
+/// Node values are stored [padded](Lattice::pad): every periodic or one-node axis has its first node once more
+/// at its end, so that the nodes of a cell are always neighbors in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lattice {
     pub dims: [usize; 3],
@@ -15,11 +18,12 @@ pub(crate) struct Lattice {
     pub origin: Vector,
     pub spacing: Vector,
     per_spacing: Vector,
+    stored: [usize; 3],
 }
 
-/// The cell around a point: eight node numbers and the position inside.
+/// The cell around a point: the first nodes of its four rows and the position inside.
 pub(crate) struct Cell {
-    nodes: [usize; 8],
+    rows: [usize; 4],
     weight: Vector,
     flat: bool,
 }
@@ -32,8 +36,15 @@ pub(crate) struct Jet {
     pub dz: Vec4,
 }
 
+#[inline]
 fn lerp(a: Vec4, b: Vec4, weight: Real) -> Vec4 {
     a + (b - a) * weight
+}
+
+/// What lies between 0 and 1, and 0 if it is NaN.
+#[inline]
+fn fraction(x: Real) -> Real {
+    x.max(0.0).min(1.0)
 }
 
 impl Lattice {
@@ -62,6 +73,7 @@ impl Lattice {
             origin,
             spacing,
             per_spacing: spacing.recip(),
+            stored: core::array::from_fn(|i| dims[i] + usize::from(periodic[i] || dims[i] == 1)),
         })
     }
 
@@ -69,80 +81,93 @@ impl Lattice {
         self.dims.iter().product()
     }
 
-    /// Nodes below and above along one axis, and how far between them. Never out of bounds,
-    /// whatever `x` is; if it is NaN, so is the weight.
-    fn bracket(&self, axis: usize, x: Real) -> (usize, usize, Real) {
+    /// Nodes as they are stored, from nodes with x fastest.
+    pub fn pad<T>(&self, node: impl Fn(usize) -> T) -> Vec<T> {
+        let [nx, ny, nz] = self.dims;
+        let [sx, sy, sz] = self.stored;
+        let mut nodes = Vec::with_capacity(sx * sy * sz);
+        for k in 0..sz {
+            for j in 0..sy {
+                let row = (k % nz * ny + j % ny) * nx;
+                nodes.extend((0..sx).map(|i| node(row + i % nx)));
+            }
+        }
+        nodes
+    }
+
+    /// The stored nodes without padding, x fastest.
+    pub fn unpad<'a, T>(&self, nodes: &'a [T]) -> impl Iterator<Item = &'a T> + use<'a, T> {
+        let ([nx, ny, nz], [sx, sy, _]) = (self.dims, self.stored);
+        (0..nz)
+            .flat_map(move |k| (0..ny).flat_map(move |j| nodes[(k * sy + j) * sx..][..nx].iter()))
+    }
+
+    /// Node below along one axis, and how far to the next. Never out of bounds, whatever `x` is.
+    #[inline]
+    fn bracket(&self, axis: usize, x: Real) -> (usize, Real) {
         let n = self.dims[axis];
-        if n == 1 {
-            return (0, 0, 0.0);
-        }
-        if self.periodic[axis] {
+        let last = self.stored[axis] - 2;
+        let x = if self.periodic[axis] || n == 1 {
+            // Without floor(), which is a function call on x86-64 without SSE 4.1.
             let turns = x / n as Real;
-            let x = (turns - turns.floor()) * n as Real;
-            let below = (x as usize).min(n - 1);
-            let above = if below + 1 == n { 0 } else { below + 1 };
-            (below, above, (x - below as Real).min(1.0))
+            let part = turns - turns as i32 as Real;
+            (if part < 0.0 { part + 1.0 } else { part }) * n as Real
         } else {
-            let x = x.clamp(0.0, (n - 1) as Real);
-            let below = (x as usize).min(n - 2);
-            (below, below + 1, x - below as Real)
-        }
+            x
+        };
+        let below = (x.max(0.0) as u32 as usize).min(last);
+        (below, fraction(x - below as Real))
     }
 
     #[inline]
     pub fn locate(&self, point: Vector) -> Cell {
         let x = (point - self.origin) * self.per_spacing;
-        let (i, i1, wx) = self.bracket(0, x.x);
-        let (j, j1, wy) = self.bracket(1, x.y);
-        let (k, k1, wz) = self.bracket(2, x.z);
-        let [nx, ny, nz] = self.dims;
-        let row = |j: usize, k: usize| (k * ny + j) * nx;
-        let rows = [row(j, k), row(j1, k), row(j, k1), row(j1, k1)];
+        let (i, wx) = self.bracket(0, x.x);
+        let (j, wy) = self.bracket(1, x.y);
+        let [sx, sy, _] = self.stored;
+        let flat = self.dims[2] == 1;
+        let (k, wz) = if flat { (0, 0.0) } else { self.bracket(2, x.z) };
+        let low = (k * sy + j) * sx + i;
+        let high = low + sy * sx;
         Cell {
-            nodes: [
-                rows[0] + i,
-                rows[0] + i1,
-                rows[1] + i,
-                rows[1] + i1,
-                rows[2] + i,
-                rows[2] + i1,
-                rows[3] + i,
-                rows[3] + i1,
-            ],
+            rows: [low, low + sx, high, high + sx],
             weight: Vector::new(wx, wy, wz),
-            flat: nz == 1,
+            flat,
         }
     }
 
-    /// Value inside `cell`, of what is `at` each node.
+    /// Value inside `cell` of `nodes`, each seen through `at`.
     #[inline]
-    pub fn value(&self, cell: &Cell, at: impl Fn(usize) -> Vec4) -> Vec4 {
-        let (n, w) = (&cell.nodes, cell.weight);
-        let plane = |n: &[usize]| {
-            lerp(
-                lerp(at(n[0]), at(n[1]), w.x),
-                lerp(at(n[2]), at(n[3]), w.x),
-                w.y,
-            )
+    pub fn value<T>(&self, cell: &Cell, nodes: &[T], at: impl Fn(&T) -> Vec4) -> Vec4 {
+        let w = cell.weight;
+        let line = |row: usize| {
+            let pair = &nodes[row..row + 2];
+            lerp(at(&pair[0]), at(&pair[1]), w.x)
         };
+        let [a, b, c, d] = cell.rows;
+        let low = lerp(line(a), line(b), w.y);
         if cell.flat {
-            plane(&n[..4])
+            low
         } else {
-            lerp(plane(&n[..4]), plane(&n[4..]), w.z)
+            lerp(low, lerp(line(c), line(d), w.y), w.z)
         }
     }
 
     /// Value and gradient inside `cell`; beyond a clamped edge the gradient is the edge cell's.
     #[inline]
-    pub fn jet(&self, cell: &Cell, at: impl Fn(usize) -> Vec4) -> Jet {
-        let (n, w) = (&cell.nodes, cell.weight);
-        let plane = |n: &[usize]| {
-            let (a, b, c, d) = (at(n[0]), at(n[1]), at(n[2]), at(n[3]));
-            let (near, far) = (lerp(a, b, w.x), lerp(c, d, w.x));
-            (lerp(near, far, w.y), lerp(b - a, d - c, w.y), far - near)
+    pub fn jet<T>(&self, cell: &Cell, nodes: &[T], at: impl Fn(&T) -> Vec4) -> Jet {
+        let w = cell.weight;
+        let line = |row: usize| {
+            let pair = &nodes[row..row + 2];
+            let (a, b) = (at(&pair[0]), at(&pair[1]));
+            (lerp(a, b, w.x), b - a)
+        };
+        let plane = |near: usize, far: usize| {
+            let ((near, near_dx), (far, far_dx)) = (line(near), line(far));
+            (lerp(near, far, w.y), lerp(near_dx, far_dx, w.y), far - near)
         };
         let scale = self.per_spacing;
-        let (low, low_dx, low_dy) = plane(&n[..4]);
+        let (low, low_dx, low_dy) = plane(cell.rows[0], cell.rows[1]);
         if cell.flat {
             return Jet {
                 value: low,
@@ -151,7 +176,7 @@ impl Lattice {
                 dz: Vec4::ZERO,
             };
         }
-        let (high, high_dx, high_dy) = plane(&n[4..]);
+        let (high, high_dx, high_dy) = plane(cell.rows[2], cell.rows[3]);
         Jet {
             value: lerp(low, high, w.z),
             dx: lerp(low_dx, high_dx, w.z) * scale.x,
@@ -163,6 +188,7 @@ impl Lattice {
 
 impl Jet {
     /// Curl of the first three components.
+    #[inline]
     pub fn curl(&self) -> Vector {
         Vector::new(
             self.dy.z - self.dz.y,

@@ -3,6 +3,7 @@
 use super::{Flow, analytic::unit};
 use crate::Error;
 use rapier3d::math::{Real, Vector};
+use rapier3d::na::ComplexField;
 
 /// von Kármán's constant, 0.40 (the thesis's and the usual value; measured 0.38 to 0.42).
 pub const VON_KARMAN: Real = 0.40;
@@ -82,7 +83,7 @@ impl LogLaw {
     /// Mean wind speed at `height` (m above the zero-plane), m/s.
     pub fn speed(&self, height: Real) -> Real {
         if height > self.roughness {
-            self.friction_velocity / VON_KARMAN * (height / self.roughness).ln()
+            self.friction_velocity / VON_KARMAN * ComplexField::ln(height / self.roughness)
         } else {
             0.0
         }

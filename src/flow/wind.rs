@@ -1,10 +1,11 @@
 //! Gusty wind over ground: a log-law mean and a baked turbulent field carried along by it.
 
-use super::{Flow, FlowSample, LogLaw, lattice::Jet, lattice::Lattice, lattice::MAX_NODES};
+use super::{Flow, FlowSample, LogLaw, lattice::Lattice, lattice::MAX_NODES};
 use crate::Error;
 use crate::binary::{FileKind, Reader, Writer};
 use rapier3d::glamx::Vec4;
 use rapier3d::math::{Real, Vector};
+use rapier3d::na::ComplexField;
 
 /// How the gusts change with height.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,6 +39,8 @@ pub struct SpectralWind {
     pub(super) lattice: Lattice,
     /// Fluctuation along the wind, across it and up, m/s, of both fields at each node.
     pub(super) nodes: Vec<[Vec4; 2]>,
+    /// 1/ln(h₀/z₀).
+    per_log: Real,
 }
 
 const FILE: FileKind = FileKind {
@@ -50,6 +53,15 @@ const FILE: FileKind = FileKind {
 struct Instant {
     carried: Vector,
     mix: [Real; 2],
+}
+
+/// The wind's dependence on height.
+#[derive(Default)]
+struct Profile {
+    speed: Real,
+    shear: Real,
+    strength: Real,
+    growth: Real,
 }
 
 impl SpectralWind {
@@ -65,7 +77,7 @@ impl SpectralWind {
         evolution_time: f64,
         height_law: HeightLaw,
         lattice: Lattice,
-        nodes: Vec<[Vec4; 2]>,
+        nodes: &[[Vec4; 2]],
     ) -> Result<Self, Error> {
         let mean = LogLaw::new(
             direction,
@@ -86,8 +98,9 @@ impl SpectralWind {
             mean_speed,
             evolution_time,
             height_law,
+            nodes: lattice.pad(|node| nodes[node]),
             lattice,
-            nodes,
+            per_log: 1.0 / (reference_height / roughness).ln(),
         })
     }
 
@@ -108,7 +121,9 @@ impl SpectralWind {
 
     /// Fluctuations at the nodes at time 0 at the reference height: along the wind, across it, up, m/s.
     pub fn fluctuations(&self) -> impl Iterator<Item = Vector> + '_ {
-        self.nodes.iter().map(|node| node[0].truncate())
+        self.lattice
+            .unpad(&self.nodes)
+            .map(|node| node[0].truncate())
     }
 
     fn instant(&self, time: f64) -> Instant {
@@ -127,18 +142,21 @@ impl SpectralWind {
         }
     }
 
-    /// How strong the gusts are at `height`, relative to the reference height, and how much that
-    /// grows per meter.
-    fn strength(&self, height: Real) -> (Real, Real) {
+    /// Mean speed, strength of the gusts relative to the reference height, and growth per meter of
+    /// both, at `height`.
+    #[inline]
+    fn profile(&self, height: Real) -> Profile {
         if height <= self.roughness {
-            return (0.0, 0.0);
+            return Profile::default();
         }
-        let per_log = 1.0 / (self.reference_height / self.roughness).ln();
-        let strength = (height / self.roughness).ln() * per_log;
-        if strength > 1.0 && self.height_law == HeightLaw::SurfaceLayer {
-            (1.0, 0.0)
-        } else {
-            (strength, per_log / height)
+        let strength = ComplexField::ln(height / self.roughness) * self.per_log;
+        let (growth, speed) = (self.per_log / height, self.mean_speed as Real);
+        let capped = strength > 1.0 && self.height_law == HeightLaw::SurfaceLayer;
+        Profile {
+            speed: speed * strength,
+            shear: speed * growth,
+            strength: if capped { 1.0 } else { strength },
+            growth: if capped { 0.0 } else { growth },
         }
     }
 
@@ -155,36 +173,33 @@ impl SpectralWind {
     }
 
     #[inline]
-    fn at(&self, instant: &Instant, node: usize) -> Vec4 {
-        let [a, b] = self.nodes[node];
-        a * instant.mix[0] + b * instant.mix[1]
-    }
-
     fn velocity_at(&self, point: Vector, instant: &Instant) -> Vector {
         let x = self.to_field(point, instant);
         let cell = self.lattice.locate(x);
-        let gust = self.lattice.value(&cell, |node| self.at(instant, node));
-        let (strength, _) = self.strength(x.z);
-        self.to_world(gust.truncate() * strength) + self.axes[0] * self.mean.speed(x.z)
+        let [a, b] = instant.mix;
+        let gust = self
+            .lattice
+            .value(&cell, &self.nodes, |node| node[0] * a + node[1] * b);
+        let profile = self.profile(x.z);
+        self.to_world(gust.truncate() * profile.strength + Vector::X * profile.speed)
     }
 
+    #[inline]
     fn sample_at(&self, point: Vector, instant: &Instant) -> FlowSample {
         let x = self.to_field(point, instant);
         let cell = self.lattice.locate(x);
-        let jet: Jet = self.lattice.jet(&cell, |node| self.at(instant, node));
+        let [a, b] = instant.mix;
+        let jet = self
+            .lattice
+            .jet(&cell, &self.nodes, |node| node[0] * a + node[1] * b);
         let gust = jet.value.truncate();
-        let (strength, growth) = self.strength(x.z);
-        let mean_shear = if x.z > self.roughness {
-            self.mean.friction_velocity() / (super::log_law::VON_KARMAN * x.z)
-        } else {
-            0.0
-        };
+        let profile = self.profile(x.z);
         // curl(strength·gust + U e₁), with ẑ × e₁ = e₂.
-        let curl = jet.curl() * strength
-            + Vector::new(-gust.y, gust.x, 0.0) * growth
-            + Vector::new(0.0, mean_shear, 0.0);
+        let curl = jet.curl() * profile.strength
+            + Vector::new(-gust.y, gust.x, 0.0) * profile.growth
+            + Vector::new(0.0, profile.shear, 0.0);
         FlowSample {
-            velocity: self.to_world(gust * strength) + self.axes[0] * self.mean.speed(x.z),
+            velocity: self.to_world(gust * profile.strength + Vector::X * profile.speed),
             vorticity: self.to_world(curl),
         }
     }
@@ -209,7 +224,7 @@ impl SpectralWind {
         file.f64(self.ground.into());
         let evolves = self.evolution_time.is_finite();
         file.f64(if evolves { self.evolution_time } else { 0.0 });
-        for node in &self.nodes {
+        for node in self.lattice.unpad(&self.nodes) {
             for x in node.iter().flat_map(|field| field.truncate().to_array()) {
                 file.f32(x);
             }
@@ -274,7 +289,7 @@ impl SpectralWind {
             },
             height_law,
             lattice,
-            nodes,
+            &nodes,
         )
     }
 }

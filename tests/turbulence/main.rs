@@ -1,2 +1,7 @@
-#[test]
-fn x() {}
+//! Laws that wind and turbulence must obey, one module per law.
+
+mod cavity;
+
+mod langevin;
+mod taylor_green;
+mod wind;
