@@ -6,14 +6,22 @@
 //! random stream of its own ([`NoiseStream`]).
 
 #[cfg(feature = "bake")]
+mod bake;
+#[cfg(feature = "bake")]
 pub mod grid;
 mod k_epsilon;
+#[cfg(feature = "bake")]
+mod k_epsilon_grid;
 mod langevin;
 mod noise;
 mod source;
 mod table;
 
+#[cfg(feature = "bake")]
+pub use bake::{BakeReport, BakeSample, ShearSource, TurbulenceParams};
 pub use k_epsilon::{KEpsilon, TurbulenceState};
+#[cfg(feature = "bake")]
+pub use k_epsilon_grid::KEpsilonGrid;
 pub use langevin::{SeenFluctuation, kolmogorov_constant, relative_velocity_after, spin_increment};
 pub use noise::NoiseStream;
 pub use source::Turbulence;

@@ -52,15 +52,17 @@ fn slope(power: &[f64], from: usize, to: usize) -> f64 {
     cov / var
 }
 
-/// Kolmogorov's −5/3 over the decade of harmonics 2 to 20, along lines through the field. Averaged
-/// over seeds: one slice of 256² has a few independent low modes only, and scatters by about ±.05.
+/// Kolmogorov's −5/3 over a decade of harmonics along lines through the field, 2 to 20 of a slice of 256²,
+/// 1 to 10 of a box of 128³: closer to the grid's shortest wave a line misses what the oblique waves
+/// beyond it would add (at harmonic 10 of 128³ 4.5 %). Averaged over seeds, because one field has
+/// only a few independent low modes.
 #[test]
 fn spectrum_falls_with_the_power_minus_five_thirds() {
-    for (nodes, divergence_free, seeds) in [
-        ([256, 256, 1], false, 24u64),
-        ([256, 256, 1], true, 24),
-        ([96, 96, 96], false, 3),
-        ([96, 96, 96], true, 3),
+    for (nodes, divergence_free, seeds, from) in [
+        ([256, 256, 1], false, 24u64, 2),
+        ([256, 256, 1], true, 24, 2),
+        ([128, 128, 128], false, 4, 1),
+        ([128, 128, 128], true, 4, 1),
     ] {
         let nx: usize = nodes[0];
         let mut power = [vec![0.0; nx / 2], vec![0.0; nx / 2]];
@@ -77,14 +79,17 @@ fn spectrum_falls_with_the_power_minus_five_thirds() {
                 }
             }
         }
-        let found = [slope(&power[0], 2, 20), slope(&power[1], 2, 20)];
+        let found = [
+            slope(&power[0], from, 10 * from),
+            slope(&power[1], from, 10 * from),
+        ];
         println!("{nodes:?} divergence_free={divergence_free}: slopes {found:?}");
         for slope in found {
             assert!((slope + 5.0 / 3.0).abs() < 0.05, "{slope}");
         }
         if divergence_free {
             // In the inertial range the spectrum across is 4/3 of the one along (3-D) or 5/3 (2-D).
-            let ratio: f64 = (4..=20).map(|m| power[1][m] / power[0][m]).sum::<f64>() / 17.0;
+            let ratio: f64 = (4..=10).map(|m| power[1][m] / power[0][m]).sum::<f64>() / 7.0;
             let theory = if nodes[2] == 1 { 5.0 / 3.0 } else { 4.0 / 3.0 };
             println!("  across/along {ratio}, theory {theory}");
             assert!((ratio / theory - 1.0).abs() < 0.1, "{ratio}");

@@ -15,6 +15,7 @@ pub use advection::Advection;
 pub use boundary::Boundary;
 pub use viscosity::Viscosity;
 
+pub(crate) use advection::advect;
 pub(crate) use array::Array3;
 pub(crate) use boundary::Sides;
 pub(super) use separable::{End, Separable};
