@@ -164,7 +164,7 @@ impl GridFlow {
             if self.lattice.periodic[axis] {
                 let period = self.lattice.dims[axis] as f64
                     * f64::from(self.lattice.spacing.to_array()[axis]);
-                way.rem_euclid(period) as f32
+                super::lattice::wrap(way, period) as f32
             } else {
                 way as f32
             }
@@ -179,21 +179,25 @@ impl GridFlow {
 
 impl Flow for GridFlow {
     fn velocity(&self, point: Vector, time: f64) -> Vector {
-        let cell = self.lattice.locate(point - self.carried(time));
+        let cell = self
+            .lattice
+            .locate((point - self.carried(time)).extend(0.0));
         self.lattice
             .value(&cell, &self.nodes, |node| *node)
             .truncate()
     }
 
     fn vorticity(&self, point: Vector, time: f64) -> Vector {
-        let cell = self.lattice.locate(point - self.carried(time));
+        let cell = self
+            .lattice
+            .locate((point - self.carried(time)).extend(0.0));
         self.lattice.jet(&cell, &self.nodes, |node| *node).curl()
     }
 
     fn sample(&self, points: &[Vector], time: f64, samples: &mut [FlowSample]) {
         let carried = self.carried(time);
         for (point, sample) in points.iter().zip(samples) {
-            let cell = self.lattice.locate(*point - carried);
+            let cell = self.lattice.locate((*point - carried).extend(0.0));
             let jet = self.lattice.jet(&cell, &self.nodes, |node| *node);
             sample.velocity = jet.value.truncate();
             sample.vorticity = jet.curl();

@@ -1,7 +1,7 @@
 //! Trilinear interpolation on a regular lattice, clamped or periodic along each axis.
 
 use crate::Error;
-use rapier3d::glamx::Vec4;
+use rapier3d::glamx::{BVec4A, Vec4};
 use rapier3d::math::{Real, Vector};
 
 /// Most nodes along one axis, so that products of three fit comfortably into `u64`.
@@ -17,14 +17,27 @@ pub(crate) struct Lattice {
     pub periodic: [bool; 3],
     pub origin: Vector,
     pub spacing: Vector,
-    per_spacing: Vector,
     stored: [usize; 3],
+    lanes: Lanes,
+}
+
+/// The same as four-lane constants, so that the three axes are bracketed at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lanes {
+    origin: Vec4,
+    per_spacing: Vec4,
+    nodes: Vec4,
+    per_node: Vec4,
+    periodic: BVec4A,
+    /// Largest position and largest node below a cell.
+    end: Vec4,
+    last: Vec4,
 }
 
 /// The cell around a point: the first nodes of its four rows and the position inside.
 pub(crate) struct Cell {
     rows: [usize; 4],
-    weight: Vector,
+    weight: Vec4,
     flat: bool,
 }
 
@@ -36,15 +49,15 @@ pub(crate) struct Jet {
     pub dz: Vec4,
 }
 
-#[inline]
-fn lerp(a: Vec4, b: Vec4, weight: Real) -> Vec4 {
-    a + (b - a) * weight
+/// `x` modulo `period`, several times faster than `rem_euclid` (which divides bit by bit).
+#[inline(always)]
+pub(crate) fn wrap(x: f64, period: f64) -> f64 {
+    x - (x / period).floor() * period
 }
 
-/// What lies between 0 and 1, and 0 if it is NaN.
-#[inline]
-fn fraction(x: Real) -> Real {
-    x.max(0.0).min(1.0)
+#[inline(always)]
+fn lerp(a: Vec4, b: Vec4, weight: Real) -> Vec4 {
+    a + (b - a) * weight
 }
 
 impl Lattice {
@@ -67,13 +80,27 @@ impl Lattice {
         for x in origin.to_array() {
             Error::check_finite("origin", x.into())?;
         }
+        let wraps: [bool; 3] = core::array::from_fn(|i| periodic[i] || dims[i] == 1);
+        let stored: [usize; 3] = core::array::from_fn(|i| dims[i] + usize::from(wraps[i]));
+        let lanes = |value: &dyn Fn(usize) -> usize| {
+            Vec4::new(value(0) as Real, value(1) as Real, value(2) as Real, 1.0)
+        };
+        let nodes = lanes(&|i| dims[i]);
         Ok(Self {
             dims,
             periodic,
             origin,
             spacing,
-            per_spacing: spacing.recip(),
-            stored: core::array::from_fn(|i| dims[i] + usize::from(periodic[i] || dims[i] == 1)),
+            stored,
+            lanes: Lanes {
+                origin: origin.extend(0.0),
+                per_spacing: spacing.recip().extend(0.0),
+                nodes,
+                per_node: nodes.recip(),
+                periodic: BVec4A::new(wraps[0], wraps[1], wraps[2], true),
+                end: lanes(&|i| stored[i] - 1),
+                last: lanes(&|i| stored[i] - 2),
+            },
         })
     }
 
@@ -102,42 +129,30 @@ impl Lattice {
             .flat_map(move |k| (0..ny).flat_map(move |j| nodes[(k * sy + j) * sx..][..nx].iter()))
     }
 
-    /// Node below along one axis, and how far to the next. Never out of bounds, whatever `x` is.
-    #[inline]
-    fn bracket(&self, axis: usize, x: Real) -> (usize, Real) {
-        let n = self.dims[axis];
-        let last = self.stored[axis] - 2;
-        let x = if self.periodic[axis] || n == 1 {
-            // Without floor(), which is a function call on x86-64 without SSE 4.1.
-            let turns = x / n as Real;
-            let part = turns - turns as i32 as Real;
-            (if part < 0.0 { part + 1.0 } else { part }) * n as Real
-        } else {
-            x
-        };
-        let below = (x.max(0.0) as u32 as usize).min(last);
-        (below, fraction(x - below as Real))
-    }
-
-    #[inline]
-    pub fn locate(&self, point: Vector) -> Cell {
-        let x = (point - self.origin) * self.per_spacing;
-        let (i, wx) = self.bracket(0, x.x);
-        let (j, wy) = self.bracket(1, x.y);
+    /// The cell around a point (the fourth lane is ignored). Its nodes are never out of bounds, and
+    /// its weights never NaN, whatever the point is.
+    #[inline(always)]
+    pub fn locate(&self, point: Vec4) -> Cell {
+        let lanes = &self.lanes;
+        let x = (point - lanes.origin) * lanes.per_spacing;
+        let turns = x * lanes.per_node;
+        let wrapped = (turns - turns.floor()) * lanes.nodes;
+        let x = Vec4::select(lanes.periodic, wrapped, x).clamp(Vec4::ZERO, lanes.end);
+        let below = x.floor().min(lanes.last);
+        let weight = (x - below).max(Vec4::ZERO);
+        let [i, j, k, _] = below.to_array().map(|x| x as i32 as usize);
         let [sx, sy, _] = self.stored;
-        let flat = self.dims[2] == 1;
-        let (k, wz) = if flat { (0, 0.0) } else { self.bracket(2, x.z) };
         let low = (k * sy + j) * sx + i;
         let high = low + sy * sx;
         Cell {
             rows: [low, low + sx, high, high + sx],
-            weight: Vector::new(wx, wy, wz),
-            flat,
+            weight,
+            flat: self.dims[2] == 1,
         }
     }
 
     /// Value inside `cell` of `nodes`, each seen through `at`.
-    #[inline]
+    #[inline(always)]
     pub fn value<T>(&self, cell: &Cell, nodes: &[T], at: impl Fn(&T) -> Vec4) -> Vec4 {
         let w = cell.weight;
         let line = |row: usize| {
@@ -154,7 +169,7 @@ impl Lattice {
     }
 
     /// Value and gradient inside `cell`; beyond a clamped edge the gradient is the edge cell's.
-    #[inline]
+    #[inline(always)]
     pub fn jet<T>(&self, cell: &Cell, nodes: &[T], at: impl Fn(&T) -> Vec4) -> Jet {
         let w = cell.weight;
         let line = |row: usize| {
@@ -166,7 +181,7 @@ impl Lattice {
             let ((near, near_dx), (far, far_dx)) = (line(near), line(far));
             (lerp(near, far, w.y), lerp(near_dx, far_dx, w.y), far - near)
         };
-        let scale = self.per_spacing;
+        let scale = self.lanes.per_spacing;
         let (low, low_dx, low_dy) = plane(cell.rows[0], cell.rows[1]);
         if cell.flat {
             return Jet {
@@ -188,7 +203,7 @@ impl Lattice {
 
 impl Jet {
     /// Curl of the first three components.
-    #[inline]
+    #[inline(always)]
     pub fn curl(&self) -> Vector {
         Vector::new(
             self.dy.z - self.dz.y,

@@ -1,6 +1,7 @@
 //! Gusty wind over ground: a log-law mean and a baked turbulent field carried along by it.
 
-use super::{Flow, FlowSample, LogLaw, lattice::Lattice, lattice::MAX_NODES};
+use super::lattice::{Lattice, MAX_NODES, wrap};
+use super::{Flow, FlowSample, LogLaw};
 use crate::Error;
 use crate::binary::{FileKind, Reader, Writer};
 use rapier3d::glamx::Vec4;
@@ -30,6 +31,8 @@ pub enum HeightLaw {
 pub struct SpectralWind {
     pub(super) mean: LogLaw,
     pub(super) axes: [Vector; 3],
+    to_field: [Vec4; 3],
+    to_world: [Vec4; 3],
     pub(super) reference_height: Real,
     pub(super) roughness: Real,
     pub(super) ground: Real,
@@ -39,8 +42,10 @@ pub struct SpectralWind {
     pub(super) lattice: Lattice,
     /// Fluctuation along the wind, across it and up, m/s, of both fields at each node.
     pub(super) nodes: Vec<[Vec4; 2]>,
-    /// 1/ln(h₀/z₀).
+    /// 1/ln(h₀/z₀), 1/z₀, and the largest strength of the gusts.
     per_log: Real,
+    per_roughness: Real,
+    cap: Real,
 }
 
 const FILE: FileKind = FileKind {
@@ -51,7 +56,7 @@ const FILE: FileKind = FileKind {
 
 /// What is the same for every point at one time.
 struct Instant {
-    carried: Vector,
+    carried: Vec4,
     mix: [Real; 2],
 }
 
@@ -89,9 +94,13 @@ impl SpectralWind {
         .with_ground(ground)?;
         let along = direction.normalize();
         let up = up.normalize();
+        let axes = [along, up.cross(along), up];
+        let row = |i: usize| Vec4::new(axes[0][i], axes[1][i], axes[2][i], 0.0);
         Ok(Self {
             mean,
-            axes: [along, up.cross(along), up],
+            axes,
+            to_field: [row(0), row(1), row(2)],
+            to_world: axes.map(|axis| axis.extend(0.0)),
             reference_height,
             roughness,
             ground,
@@ -101,6 +110,11 @@ impl SpectralWind {
             nodes: lattice.pad(|node| nodes[node]),
             lattice,
             per_log: 1.0 / (reference_height / roughness).ln(),
+            per_roughness: 1.0 / roughness,
+            cap: match height_law {
+                HeightLaw::SurfaceLayer => 1.0,
+                HeightLaw::Proportional => Real::INFINITY,
+            },
         })
     }
 
@@ -128,51 +142,51 @@ impl SpectralWind {
 
     fn instant(&self, time: f64) -> Instant {
         let period = f64::from(self.lattice.spacing.x) * self.lattice.dims[0] as f64;
-        let way = (self.mean_speed * time).rem_euclid(period);
+        let way = wrap(self.mean_speed * time, period);
         let mix = if self.evolution_time.is_finite() {
-            let turns = (time / self.evolution_time).rem_euclid(1.0);
+            let turns = wrap(time / self.evolution_time, 1.0);
             let (sin, cos) = (core::f64::consts::TAU * turns).sin_cos();
             [cos as Real, sin as Real]
         } else {
             [1.0, 0.0]
         };
         Instant {
-            carried: Vector::new(way as Real, 0.0, 0.0),
+            carried: Vec4::new(way as Real, 0.0, self.ground, 0.0),
             mix,
         }
     }
 
     /// Mean speed, strength of the gusts relative to the reference height, and growth per meter of
     /// both, at `height`.
-    #[inline]
+    #[inline(always)]
     fn profile(&self, height: Real) -> Profile {
         if height <= self.roughness {
             return Profile::default();
         }
-        let strength = ComplexField::ln(height / self.roughness) * self.per_log;
+        let raw = ComplexField::ln(height * self.per_roughness) * self.per_log;
         let (growth, speed) = (self.per_log / height, self.mean_speed as Real);
-        let capped = strength > 1.0 && self.height_law == HeightLaw::SurfaceLayer;
         Profile {
-            speed: speed * strength,
+            speed: speed * raw,
             shear: speed * growth,
-            strength: if capped { 1.0 } else { strength },
-            growth: if capped { 0.0 } else { growth },
+            strength: raw.min(self.cap),
+            growth: growth * Real::from(u8::from(raw < self.cap)),
         }
     }
 
-    fn to_field(&self, point: Vector, instant: &Instant) -> Vector {
-        Vector::new(
-            point.dot(self.axes[0]),
-            point.dot(self.axes[1]),
-            point.dot(self.axes[2]) - self.ground,
-        ) - instant.carried
+    /// A point in the field's axes, carried back with the mean wind, height above ground.
+    #[inline(always)]
+    fn to_field(&self, point: Vector, instant: &Instant) -> Vec4 {
+        let [x, y, z] = self.to_field;
+        x * point.x + y * point.y + z * point.z - instant.carried
     }
 
-    fn to_world(&self, vector: Vector) -> Vector {
-        self.axes[0] * vector.x + self.axes[1] * vector.y + self.axes[2] * vector.z
+    #[inline(always)]
+    fn to_world(&self, vector: Vec4) -> Vector {
+        let [along, across, up] = self.to_world;
+        (along * vector.x + across * vector.y + up * vector.z).truncate()
     }
 
-    #[inline]
+    #[inline(always)]
     fn velocity_at(&self, point: Vector, instant: &Instant) -> Vector {
         let x = self.to_field(point, instant);
         let cell = self.lattice.locate(x);
@@ -181,10 +195,10 @@ impl SpectralWind {
             .lattice
             .value(&cell, &self.nodes, |node| node[0] * a + node[1] * b);
         let profile = self.profile(x.z);
-        self.to_world(gust.truncate() * profile.strength + Vector::X * profile.speed)
+        self.to_world(gust * profile.strength + Vec4::X * profile.speed)
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample_at(&self, point: Vector, instant: &Instant) -> FlowSample {
         let x = self.to_field(point, instant);
         let cell = self.lattice.locate(x);
@@ -192,14 +206,14 @@ impl SpectralWind {
         let jet = self
             .lattice
             .jet(&cell, &self.nodes, |node| node[0] * a + node[1] * b);
-        let gust = jet.value.truncate();
+        let gust = jet.value;
         let profile = self.profile(x.z);
         // curl(strength·gust + U e₁), with ẑ × e₁ = e₂.
-        let curl = jet.curl() * profile.strength
-            + Vector::new(-gust.y, gust.x, 0.0) * profile.growth
-            + Vector::new(0.0, profile.shear, 0.0);
+        let curl = jet.curl().extend(0.0) * profile.strength
+            + Vec4::new(-gust.y, gust.x, 0.0, 0.0) * profile.growth
+            + Vec4::new(0.0, profile.shear, 0.0, 0.0);
         FlowSample {
-            velocity: self.to_world(gust * profile.strength + Vector::X * profile.speed),
+            velocity: self.to_world(gust * profile.strength + Vec4::X * profile.speed),
             vorticity: self.to_world(curl),
         }
     }

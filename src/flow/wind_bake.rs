@@ -417,10 +417,10 @@ impl Modes {
         fields
     }
 
-    /// Scales the fields to their variances, makes each pair uncorrelated, and interleaves them.
-    fn assemble(&self, params: &WindParams, mut fields: Vec<Vec<Complex32>>) -> Vec<[Vec4; 2]> {
-        let [nx, ny, nz] = self.dims;
-        let count = (nx * ny * nz) as f64;
+    /// Scales the fields to their variances and makes each pair uncorrelated, so that every mixture
+    /// of the two has that variance too.
+    fn rescale(&self, params: &WindParams, fields: &mut [Vec<Complex32>]) {
+        let count = self.dims.iter().product::<usize>() as f64;
         // ⟨a²⟩, ⟨ab⟩, ⟨b²⟩; summed in a fixed order.
         let moments: Vec<[f64; 3]> = fields
             .par_iter()
@@ -456,6 +456,14 @@ impl Modes {
                 .par_iter_mut()
                 .with_min_len(4096)
                 .for_each(|c| *c = Complex32::new(c.re * a, (c.im - mixed * c.re) * b));
+        }
+    }
+
+    /// Interleaves the fields.
+    fn assemble(&self, params: &WindParams, mut fields: Vec<Vec<Complex32>>) -> Vec<[Vec4; 2]> {
+        let [nx, ny, nz] = self.dims;
+        if let Spectrum::Given { .. } = params.spectrum {
+            self.rescale(params, &mut fields);
         }
         let mut nodes = vec![[Vec4::ZERO; 2]; nx * ny * nz];
         nodes

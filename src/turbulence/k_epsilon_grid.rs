@@ -205,19 +205,26 @@ impl KEpsilonGrid {
                                 return 0.0;
                             }
                             let nu = 0.5 * (eddy.get(at(low)) + eddy.get(at(high)));
-                            scale * (viscosity + nu / sigma)
+                            (scale * (viscosity + nu / sigma)).min(WELL_MIXED)
                         })
                         .collect();
                     let mut line: Vec<f64> = (0..n).map(|i| array.get(at(i))).collect();
+                    let low = line.iter().copied().fold(f64::INFINITY, f64::min);
+                    let high = line.iter().copied().fold(0.0, f64::max);
                     solve_line(&conductance, &mut line);
                     for (i, value) in line.into_iter().enumerate() {
-                        array.set(at(i), value);
+                        // The maximum principle, against rounding.
+                        array.set(at(i), value.clamp(low, high));
                     }
                 }
             }
         }
     }
 }
+
+/// Diffusion number ν_T dt/h² beyond which a line is mixed completely within one step anyway, and
+/// more would only drown its mean in rounding.
+const WELL_MIXED: f64 = 1.0e8;
 
 /// Solves x_i + c_i (x_i − x_{i−1}) + c_{i+1} (x_i − x_{i+1}) = f_i, periodic if c_0 = c_n ≠ 0, by
 /// elimination (Thomas) with the Sherman–Morrison correction.
@@ -227,8 +234,7 @@ fn solve_line(conductance: &[f64], f: &mut [f64]) {
     let mut diagonal: Vec<f64> = (0..n)
         .map(|i| 1.0 + conductance[i] + conductance[i + 1])
         .collect();
-    // The corners −w(e_0 e_nᵀ + e_n e_0ᵀ) are −u uᵀ/… of u = (−g, 0, …, w) with g = diagonal[0]:
-    // written with the usual choice of γ = −diagonal[0].
+    // The periodic corners are a matrix of rank one, with γ = −diagonal[0], plus changes of two diagonal entries.
     let gamma = -diagonal[0];
     let mut correction = vec![0.0; n];
     if wrap > 0.0 {
@@ -283,8 +289,7 @@ mod tests {
         }
     }
 
-    /// A cosine of ε-free k (no sources) would be a trap: with sources, diffusion must still
-    /// conserve the integral of k on a periodic line, and shrink its variance.
+    /// Diffusion alone conserves the integral of k in a periodic box and shrinks its variance.
     #[test]
     fn diffusion_conserves_and_smooths() {
         let grid = MacGrid::new(&MacGridParams {

@@ -6,7 +6,6 @@
 
 use super::TurbulenceState;
 use rapier3d::math::{Real, Vector};
-use rapier3d::na::ComplexField;
 
 /// C₀ of the Langevin equation, 6.5 (1 + 140 Re_λ^(−4/3))^(−3/4), of the *square* of the Taylor-scale
 /// Reynolds number (see [`TurbulenceState::taylor_reynolds_squared`]).
@@ -33,6 +32,29 @@ fn cube_root(x: Real) -> Real {
     let guess = Real::from_bits(x.to_bits() / 3 + 709_921_077);
     let guess = (2.0 * guess + x / (guess * guess)) / 3.0;
     (2.0 * guess + x / (guess * guess)) / 3.0
+}
+
+/// e^(−x) and 1 − e^(−2x) for x ≥ 0. The second without cancellation, as m(2 − m) of m = 1 − e^(−x), so that
+/// even a step of a millionth of the memory adds the right spread in f32. Basic operations only: cheap, and the
+/// same bits on every platform.
+#[inline]
+fn memory(x: Real) -> (Real, Real) {
+    // Eight terms of 1 − e^(−x), accurate to 1e-8 below .35.
+    let lost = |x: Real| {
+        let inner = 1.0 - x * (1.0 / 6.0) * (1.0 - x * (1.0 / 7.0) * (1.0 - x * (1.0 / 8.0)));
+        let inner = 1.0 - x * (1.0 / 4.0) * (1.0 - x * (1.0 / 5.0) * inner);
+        x * (1.0 - x * (1.0 / 2.0) * (1.0 - x * (1.0 / 3.0) * inner))
+    };
+    if x < 0.35 {
+        let lost = lost(x);
+        return (1.0 - lost, lost * (2.0 - lost));
+    }
+    // The 64th part, six times squared; beyond 22 nothing is kept.
+    let mut kept = 1.0 - lost(x.min(22.0) * (1.0 / 64.0));
+    for _ in 0..6 {
+        kept *= kept;
+    }
+    (kept, 1.0 - kept * kept)
 }
 
 /// The velocity fluctuation of the fluid around one body, as an Ornstein–Uhlenbeck process.
@@ -83,10 +105,8 @@ impl SeenFluctuation {
         let variance = k * (2.0 / 3.0);
         let crossing = (1.0 + relative_speed * relative_speed / variance).sqrt();
         let decay = 0.75 * c0 * state.dissipation / k * crossing * dt;
-        // In f64, so that 1 − e² is accurate when a step is a tiny part of the memory.
-        let kept = ComplexField::exp(-f64::from(decay));
-        let fresh = (1.0 - kept * kept).max(0.0).sqrt();
-        self.normalized = self.normalized * kept as Real + noise * fresh as Real;
+        let (kept, fresh2) = memory(decay);
+        self.normalized = self.normalized * kept + noise * fresh2.sqrt();
         self.normalized * variance.sqrt()
     }
 }
@@ -105,13 +125,13 @@ pub fn relative_velocity_after(
     noise: Vector,
 ) -> Vector {
     let alpha = (0.5 + 0.75 * c0) * state.turnover_rate();
-    let kept = ComplexField::exp(-f64::from(alpha * dt));
-    let spread = if alpha > 0.0 {
-        f64::from(c0 * state.dissipation / (2.0 * alpha)) * (1.0 - kept * kept)
+    let (kept, fresh2) = memory(alpha * dt);
+    let variance = if alpha > 0.0 {
+        c0 * state.dissipation / (2.0 * alpha)
     } else {
         0.0
     };
-    relative_velocity * kept as Real + noise * spread.max(0.0).sqrt() as Real
+    relative_velocity * kept + noise * (variance * fresh2).sqrt()
 }
 
 /// The thesis's mode: random change of the body's spin in `dt` seconds, √(C₀ε dt)/L, rad/s.
@@ -150,6 +170,26 @@ mod tests {
         assert_eq!(kolmogorov_constant(f32::INFINITY), 6.5);
         for x in [1.0e-20f32, 0.37, 1.0, 8.0, 2.5e4, 7.7e20] {
             assert!((cube_root(x) / x.cbrt() - 1.0).abs() < 1.0e-5, "{x}");
+        }
+    }
+
+    #[test]
+    fn memory_is_accurate_for_any_step() {
+        for x in [
+            0.0f32, 1.0e-9, 1.0e-5, 0.01, 0.1, 0.349, 0.351, 1.0, 5.0, 90.0,
+        ] {
+            let (kept, fresh2) = memory(x);
+            let y = f64::from(x);
+            // Six squarings of a number that is rounded to 6e-8 make 64 roundings of the result.
+            assert!(
+                (f64::from(kept) - (-y).exp()).abs() < 4.0e-6 * (-y).exp() + 1.0e-9,
+                "{x}"
+            );
+            let exact = -(-2.0 * y).exp_m1();
+            assert!(
+                (f64::from(fresh2) - exact).abs() <= 4.0e-6 * exact,
+                "{x}: {fresh2} {exact}"
+            );
         }
     }
 

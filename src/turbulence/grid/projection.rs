@@ -19,7 +19,7 @@ struct Obstacle {
 }
 
 /// Largest residual divergence relative to the initial one; and when to give up.
-const TOLERANCE: f64 = 1.0e-9;
+const TOLERANCE: f64 = 1.0e-8;
 const MAX_ITERATIONS: usize = 300;
 
 impl Projection {
