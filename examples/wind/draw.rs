@@ -185,7 +185,7 @@ pub fn spectra(path: &Path, params: &WindParams, spectra: &[Vec<(f64, f64)>; 3])
     chart.draw_series(DashedLineSeries::new(slope, 8, 5, INK.stroke_width(2)))?;
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::LowerLeft)
+        .position(SeriesLabelPosition::LowerMiddle)
         .label_font(("sans-serif", 16))
         .border_style(INK)
         .background_style(WHITE)
@@ -195,7 +195,12 @@ pub fn spectra(path: &Path, params: &WindParams, spectra: &[Vec<(f64, f64)>; 3])
 }
 
 /// ε/k, ε and the rate of strain along the followed particle, as thesis Fig. 4.2.
-pub fn history(path: &Path, plate: &BakeReport, nothing: &BakeReport) -> Drawn {
+pub fn history(
+    path: &Path,
+    plate: &BakeReport,
+    thesis: &BakeReport,
+    nothing: &BakeReport,
+) -> Drawn {
     let root = SVGBackend::new(path, (1000, 860)).into_drawing_area();
     root.fill(&WHITE)?;
     let end = plate.samples.last().map_or(1.0, |sample| sample.time);
@@ -216,7 +221,8 @@ pub fn history(path: &Path, plate: &BakeReport, nothing: &BakeReport) -> Drawn {
         ),
     ];
     for (row, (area, (title, unit, value))) in rows.zip(panels).enumerate() {
-        let all = plate.samples.iter().chain(&nothing.samples).map(value);
+        let all = [plate, thesis, nothing];
+        let all = all.into_iter().flat_map(|r| &r.samples).map(value);
         let high = all.clone().fold(0.0, f64::max);
         let low = all.filter(|v| *v > 0.0).fold(f64::INFINITY, f64::min);
         let mut builder = ChartBuilder::on(area);
@@ -244,7 +250,8 @@ pub fn history(path: &Path, plate: &BakeReport, nothing: &BakeReport) -> Drawn {
                     .draw()?;
                 for (report, color, label) in [
                     (nothing, BLUE, "no shear: homogeneous decay"),
-                    (plate, RED, "shear of the body's wake"),
+                    (thesis, GREEN, "a plate's wake, thesis's reduced form"),
+                    (plate, RED, "a plate's wake, full form"),
                 ] {
                     let line = report.samples.iter().map(|s| (s.time, value(s)));
                     chart
@@ -258,7 +265,7 @@ pub fn history(path: &Path, plate: &BakeReport, nothing: &BakeReport) -> Drawn {
                     let marks = [(time, 1.0e-9), (time, 1.1 * high)];
                     chart
                         .draw_series(DashedLineSeries::new(marks, 5, 5, INK.stroke_width(1)))?
-                        .label("the particle leaves the box")
+                        .label("the particle leaves the box (full form)")
                         .legend(|(x, y)| PathElement::new([(x, y), (x + 22, y)], INK));
                 }
                 if row == 0 {
@@ -341,7 +348,7 @@ pub fn stream(path: &Path, table: &TurbulenceTable, plate: &BakeReport) -> Drawn
     let plot = chart.plotting_area();
     let (x, y) = plot.map_coordinate(&(width, breadth));
     root.draw(&Rectangle::new(
-        [(x - 130, y + 8), (x - 8, y + 142)],
+        [(x - 130, y + 8), (x - 8, y + 144)],
         INK.filled(),
     ))?;
     for i in 0..5 {

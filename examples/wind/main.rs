@@ -119,22 +119,28 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let bar = ProgressBar::new(1000).with_style(ProgressStyle::with_template(
         "baking turbulence {bar:40} {percent} % {eta}",
     )?);
-    let bake = |shear: ShearSource, field_frames: usize| {
+    let bake = |shear: ShearSource, field_frames: usize, preset: TurbulenceParams| {
         let params = TurbulenceParams {
             shear,
             field_frames,
-            ..TurbulenceParams::default()
+            ..preset
         };
         TurbulenceTable::bake_with_progress(&params, &mut |share| {
             bar.set_position((1000.0 * share) as u64);
         })
     };
     let clock = Instant::now();
-    let (table, plate) = bake(ShearSource::Plate, 2)?;
+    let (table, plate) = bake(ShearSource::Plate, 2, TurbulenceParams::default())?;
     let bake_time = clock.elapsed().as_secs_f64();
-    let (_, nothing) = bake(ShearSource::Nothing, 0)?;
+    let (_, thesis) = bake(ShearSource::Plate, 0, TurbulenceParams::thesis())?;
+    let (_, nothing) = bake(ShearSource::Nothing, 0, TurbulenceParams::thesis())?;
     bar.finish_and_clear();
-    draw::history(&arguments.out.join("history.svg"), &plate, &nothing)?;
+    draw::history(
+        &arguments.out.join("history.svg"),
+        &plate,
+        &thesis,
+        &nothing,
+    )?;
     draw::stream(&arguments.out.join("stream.svg"), &table, &plate)?;
     if let Some(path) = &arguments.write_default_table {
         std::fs::write(path, table.clone().without_field().to_bytes())?;

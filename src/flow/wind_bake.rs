@@ -20,7 +20,8 @@ use rustfft::{FftPlanner, num_complex::Complex32};
 pub enum Spectrum {
     /// Inertial range and variances of Kaimal et al. (1972): n S_i/u*² = (.309, .399, .377) f^(−2/3)
     /// for f = nz/U ≫ f_c, and σ_i/u* = (2.185, 1.638, 1.207) if the box resolved every wavelength,
-    /// which puts the corner at f_c = (.0502, .175, .402). The default.
+    /// which puts the corner at f_c = (.0502, .175, .402). Against Kaimal's own curve 25 % stronger at the
+    /// peak and 2.3 times weaker far below the corner. The default.
     #[default]
     Kaimal,
     /// Thesis (3.15)–(3.17): S_u = A_u n^(−5/3) without corner, A_u = u*(U/h)^(2/3), A_v = .88 A_u,

@@ -41,9 +41,12 @@ pub struct TurbulenceParams {
     pub eddy_cells: f64,
     /// The model's constants.
     pub model: KEpsilon,
-    /// Whether k and ε diffuse. Default false (thesis).
+    /// Whether k and ε diffuse, thesis (4.15). Default true.
     pub diffusion: bool,
-    /// How the mean flow is advected. Default semi-Lagrangian (thesis).
+    /// Whether the mean flow is mixed by ν_T. Default true. Without it nothing ends the growth of k in fluid that is
+    /// trapped in the wake: its shear feeds turbulence, but the turbulence does not wear down the shear.
+    pub feedback: bool,
+    /// How the mean flow is advected. Default MacCormack.
     pub advection: Advection,
     /// What shears the mean flow.
     pub shear: ShearSource,
@@ -70,8 +73,9 @@ impl Default for TurbulenceParams {
             intensity: 1.0,
             eddy_cells: 1.0,
             model: KEpsilon::default(),
-            diffusion: false,
-            advection: Advection::SemiLagrangian,
+            diffusion: true,
+            feedback: true,
+            advection: Advection::MacCormack,
             shear: ShearSource::default(),
             time_step: 0.05,
             spin_up: 4.0,
@@ -113,6 +117,18 @@ pub struct BakeReport {
 }
 
 impl TurbulenceParams {
+    /// What the thesis describes: semi-Lagrangian mean flow, k and ε reduced to (4.18)–(4.19) without diffusion, no
+    /// effect of the turbulence on the mean flow. In the recirculation behind the body k then grows
+    /// without bound; the followed particle passes outside of it.
+    pub fn thesis() -> Self {
+        Self {
+            diffusion: false,
+            feedback: false,
+            advection: Advection::SemiLagrangian,
+            ..Self::default()
+        }
+    }
+
     fn validate(&self) -> Result<(), Error> {
         Error::check_positive("reynolds", self.reynolds)?;
         Error::check_positive("cell_size", self.cell_size)?;
@@ -261,6 +277,9 @@ impl TurbulenceTable {
             let before = particle.position;
             flow_step(&mut grid, &mut report, spin_up + step + 1)?;
             field.step(&grid, dt)?;
+            if params.feedback {
+                grid.set_eddy_viscosity(field.eddy_viscosity())?;
+            }
             let time = (step + 1) as f64 * dt;
             particle.advance(params, &grid, &field, before, dt);
             if particle.outside && report.left_box_at.is_none() {

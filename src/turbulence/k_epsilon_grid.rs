@@ -130,6 +130,17 @@ impl KEpsilonGrid {
         (self.k.get(index), self.epsilon.get(index))
     }
 
+    /// Eddy viscosity of every cell, m²/s, x fastest.
+    pub fn eddy_viscosity(&self) -> Vec<f64> {
+        self.k
+            .indices()
+            .map(|index| {
+                let (k, epsilon) = self.cell(index);
+                self.model.eddy_viscosity(k, epsilon)
+            })
+            .collect()
+    }
+
     /// Ghosts; and solid cells get the mean of their fluid neighbors, so that nothing of what they
     /// held leaks into the flow by interpolation.
     fn complete(&mut self, grid: &MacGrid) {

@@ -89,8 +89,8 @@ impl TurbulenceTable {
         })
     }
 
-    /// The table that ships with the crate: a body as an obstacle in a stream, Re = 3.8e3, grid
-    /// 32 × 32 × 16, a particle followed past it (the thesis's Fig. 4.2); history only.
+    /// The table that ships with the crate: a plate across a stream, Re = 3.8e3, grid 32 × 32 × 16, and
+    /// a particle followed past it (as the thesis's Fig. 4.2), by the full model; history only.
     ///
     /// Baked by `cargo run --release --features bake --example wind -- --write-default-table PATH`.
     pub fn default_history() -> Self {

@@ -168,6 +168,47 @@ fn stream_goes_around_an_obstacle() {
     assert!((out - 1.0).abs() < 1.0e-9, "{out}");
 }
 
+/// A uniform eddy viscosity does what the fluid's own would: the same decay of a shear wave, and of one along
+/// the other component.
+#[test]
+fn eddy_viscosity_acts_like_viscosity() {
+    let run = |viscosity: f64, eddy: f64, transposed: bool| {
+        let mut grid = MacGrid::new(&MacGridParams {
+            cells: [16, 16, 1],
+            cell_size: 1.0 / 16.0,
+            viscosity,
+            viscous_step: Viscosity::Explicit,
+            ..MacGridParams::default()
+        })
+        .unwrap();
+        let wave = |x: f64| (std::f64::consts::TAU * x).sin();
+        grid.set_velocity(|x| {
+            if transposed {
+                [0.0, wave(x[0]), 0.0]
+            } else {
+                [wave(x[1]), 0.0, 0.0]
+            }
+        })
+        .unwrap();
+        if eddy > 0.0 {
+            grid.set_eddy_viscosity(vec![eddy; 256]).unwrap();
+        }
+        for _ in 0..20 {
+            grid.step(0.01).unwrap();
+        }
+        grid.max_speed()
+    };
+    for transposed in [false, true] {
+        let (fluid, eddies) = (run(0.02, 0.0, transposed), run(0.0, 0.02, transposed));
+        assert!((fluid / eddies - 1.0).abs() < 1.0e-12, "{fluid} {eddies}");
+        assert!(fluid < 0.9);
+    }
+    let mut grid = cavity(8, 100.0, Advection::SemiLagrangian);
+    assert!(grid.set_eddy_viscosity(vec![0.0; 3]).is_err());
+    assert!(grid.set_eddy_viscosity(vec![-1.0; 64]).is_err());
+    assert!(grid.set_eddy_viscosity(vec![f64::NAN; 64]).is_err());
+}
+
 #[test]
 fn bad_grids_and_steps_are_errors() {
     let bad = |change: &dyn Fn(&mut MacGridParams)| {

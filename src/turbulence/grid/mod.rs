@@ -77,6 +77,7 @@ pub struct MacGrid {
     /// Components on faces: `faces[c]` has one node more than there are cells along c.
     pub(crate) faces: [Array3; 3],
     solid: Vec<bool>,
+    eddy_viscosity: Option<Vec<f64>>,
     viscosity: f64,
     advection: Advection,
     viscous_step: Viscosity,
@@ -119,6 +120,7 @@ impl MacGrid {
             sides,
             faces,
             solid: vec![false; cells.iter().product()],
+            eddy_viscosity: None,
             viscosity: params.viscosity,
             advection: params.advection,
             viscous_step: params.viscous_step,
@@ -203,9 +205,33 @@ impl MacGrid {
             viscosity::diffuse(self, dt);
             self.apply_boundaries();
         }
+        if let Some(eddy) = self.eddy_viscosity.take() {
+            viscosity::diffuse_eddies(self, &eddy, dt);
+            self.apply_boundaries();
+            self.eddy_viscosity = Some(eddy);
+        }
         let mut report = self.project();
         report.courant = courant;
         Ok(report)
+    }
+
+    /// Lets unresolved turbulence mix the flow from now on: an eddy viscosity (m²/s) per cell, x
+    /// fastest, on top of the fluid's own.
+    ///
+    /// # Errors
+    /// If the number of values is not that of the cells, or one is negative or not finite.
+    pub fn set_eddy_viscosity(&mut self, eddy_viscosity: Vec<f64>) -> Result<(), Error> {
+        Error::check(
+            "number of eddy viscosities",
+            eddy_viscosity.len() as f64,
+            eddy_viscosity.len() == self.solid.len(),
+            "the number of cells",
+        )?;
+        for value in &eddy_viscosity {
+            Error::check_not_negative("eddy_viscosity", *value)?;
+        }
+        self.eddy_viscosity = Some(eddy_viscosity);
+        Ok(())
     }
 
     /// Time since the flow was created, s.
