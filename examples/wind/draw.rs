@@ -244,6 +244,7 @@ pub fn history(
                         ""
                     })
                     .y_desc(unit)
+                    .y_labels(5)
                     .y_label_formatter(&|y| format!("{}", (y * 1.0e4).round() / 1.0e4))
                     .label_style(("sans-serif", 15))
                     .light_line_style(WHITE)

@@ -136,7 +136,7 @@ impl Gust {
     fn phase(&self, point: Vector, time: f64) -> Option<Real> {
         let tau = (time - self.start - f64::from(self.slowness.dot(point))) / self.duration;
         (self.duration > 0.0 && tau > 0.0 && tau < 1.0)
-            .then(|| (core::f64::consts::TAU * tau) as Real)
+            .then_some((core::f64::consts::TAU * tau) as Real)
     }
 }
 

@@ -8,6 +8,8 @@ mod log_law;
 mod wind;
 #[cfg(feature = "bake")]
 mod wind_bake;
+#[cfg(feature = "bake")]
+mod wind_params;
 
 pub use analytic::{Gust, Shear, Vortex};
 pub use grid::GridFlow;
@@ -15,7 +17,7 @@ pub use layers::Layers;
 pub use log_law::LogLaw;
 pub use wind::{HeightLaw, SpectralWind};
 #[cfg(feature = "bake")]
-pub use wind_bake::{Spectrum, WindParams};
+pub use wind_params::{Spectrum, WindParams};
 
 use rapier3d::math::{Real, Vector};
 

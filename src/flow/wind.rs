@@ -21,7 +21,7 @@ pub enum HeightLaw {
 
 /// Wind with gusts of a prescribed spectrum (thesis §3.5), looked up from one periodic field.
 ///
-/// Made by [`SpectralWind::bake`](crate::flow::SpectralWind::bake) (feature `bake`) or read from a file.
+/// Made by `SpectralWind::bake` (feature `bake`) or read from a file.
 ///
 /// The field is frozen and carried by the mean wind at the reference height (Taylor's hypothesis).
 /// With an evolution time T it also turns over: two independent fields are mixed as

@@ -253,7 +253,7 @@ impl TurbulenceField {
         Error::check(
             "number of field states",
             states.len() as f64,
-            !states.is_empty() && states.len() % nodes == 0,
+            !states.is_empty() && states.len().is_multiple_of(nodes),
             "a positive multiple of the number of field nodes",
         )?;
         check_states(&states)?;

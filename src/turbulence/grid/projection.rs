@@ -131,7 +131,7 @@ impl Projection {
             }
             obstacle.apply(&direction, &mut image, self.h);
             let curvature = dot(&direction, &image);
-            if !(curvature > 0.0) {
+            if curvature.is_nan() || curvature <= 0.0 {
                 break;
             }
             let alpha = rho / curvature;
