@@ -11,6 +11,7 @@
 //! ```
 
 use crate::Error;
+use rapier3d::math::{Real, Vector};
 
 /// Kind of file, as it appears in errors, and how it starts.
 pub(crate) struct FileKind {
@@ -126,6 +127,27 @@ impl<'a> Reader<'a> {
             "no larger than the format allows",
         )?;
         Ok(value as usize)
+    }
+
+    /// Three lengths.
+    pub fn lengths(&mut self, parameter: &'static str, limit: u64) -> Result<[usize; 3], Error> {
+        let mut next = || self.length(parameter, limit);
+        Ok([next()?, next()?, next()?])
+    }
+
+    /// Three numbers.
+    pub fn three(&mut self, parameter: &'static str) -> Result<[f64; 3], Error> {
+        let mut next = || self.f64(parameter);
+        Ok([next()?, next()?, next()?])
+    }
+
+    /// A vector, stored as three f64.
+    pub fn vector(&mut self, parameter: &'static str) -> Result<Vector, Error> {
+        let vector = self.three(parameter)?.map(|x| x as Real);
+        for x in vector {
+            Error::check_finite(parameter, x.into())?;
+        }
+        Ok(Vector::from_array(vector))
     }
 
     pub fn f64(&mut self, parameter: &'static str) -> Result<f64, Error> {

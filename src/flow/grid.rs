@@ -121,25 +121,16 @@ impl GridFlow {
     /// [`GridFlow::new`] refuses.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let mut file = Reader::new(&FILE, bytes)?;
-        let mut dims = [0; 3];
-        for n in &mut dims {
-            *n = file.length("nodes", MAX_NODES)?;
-        }
+        let dims = file.lengths("nodes", MAX_NODES)?;
         let mask = file.length("periodic axes", 7)?;
         let periodic = [mask & 1 != 0, mask & 2 != 0, mask & 4 != 0];
-        let mut vector = |name| -> Result<Vector, Error> {
-            Ok(Vector::new(
-                file.f64(name)? as f32,
-                file.f64(name)? as f32,
-                file.f64(name)? as f32,
-            ))
-        };
-        let (origin, spacing, drift) = (vector("origin")?, vector("spacing")?, vector("drift")?);
+        let (origin, spacing, drift) = (
+            file.vector("origin")?,
+            file.vector("spacing")?,
+            file.vector("drift")?,
+        );
         let count = dims.iter().map(|n| *n as u64).product::<u64>();
         file.expect_payload(bytes, count * 12)?;
-        for x in drift.to_array() {
-            Error::check_finite("drift", x.into())?;
-        }
         let mut velocities = Vec::with_capacity(count as usize);
         for _ in 0..count {
             velocities.push(Vector::new(

@@ -25,7 +25,8 @@ pub enum HeightLaw {
 ///
 /// The field is frozen and carried by the mean wind at the reference height (Taylor's hypothesis).
 /// With an evolution time T it also turns over: two independent fields are mixed as
-/// A cos(2πt/T) + B sin(2πt/T), whose variance is the same at every instant and which never jumps.
+/// A cos(2πt/T) + B sin(2πt/T), which never jumps and whose expected variance is the same at every
+/// instant.
 /// A field one node high is a horizontal slice that is used at every height, as the thesis does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpectralWind {
@@ -253,23 +254,13 @@ impl SpectralWind {
     /// are out of range.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let mut file = Reader::new(&FILE, bytes)?;
-        let mut dims = [0; 3];
-        for n in &mut dims {
-            *n = file.length("nodes", MAX_NODES)?;
-        }
+        let dims = file.lengths("nodes", MAX_NODES)?;
         let height_law = match file.length("height law", 1)? {
             0 => HeightLaw::SurfaceLayer,
             _ => HeightLaw::Proportional,
         };
-        let mut vector = |name| -> Result<Vector, Error> {
-            Ok(Vector::new(
-                file.f64(name)? as f32,
-                file.f64(name)? as f32,
-                file.f64(name)? as f32,
-            ))
-        };
-        let (direction, up) = (vector("direction")?, vector("up")?);
-        let spacing = vector("spacing")?;
+        let (direction, up) = (file.vector("direction")?, file.vector("up")?);
+        let spacing = file.vector("spacing")?;
         let mean_speed = file.f64("mean_speed")?;
         let reference_height = file.f64("reference_height")? as Real;
         let roughness = file.f64("roughness")? as Real;

@@ -51,8 +51,8 @@ pub struct WindParams {
     pub spectrum: Spectrum,
     /// Whether the gusts are made free of divergence: mass-conserving, with the transverse spectra
     /// 4/3 of the longitudinal one. A slice is free of divergence in its plane. All components then
-    /// share the corner of the first, and the three standard deviations hold in the mean over seeds
-    /// (their sum of squares exactly). Default true.
+    /// share the corner of the first, and the three standard deviations hold only in the mean over
+    /// seeds; of those asked for by [`Spectrum::Given`] the sum of squares holds exactly. Default true.
     pub divergence_free: bool,
     /// Time after which the evolving field is what it was, s; `None` for a frozen one. Default 60.
     pub evolution_time: Option<f64>,

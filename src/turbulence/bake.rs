@@ -14,8 +14,8 @@ use std::sync::Arc;
 /// shear, so that its turbulence only decays.
 #[derive(Clone, Default)]
 pub enum ShearSource {
-    /// The body itself, an ellipsoid with these semi-axes (in L) at rest in the stream, along it first. The default
-    /// is a plate across the stream, 0.5 L in radius and one cell thick.
+    /// A round plate across the stream, L in diameter and one cell thick: a body falling broadside. The
+    /// default.
     #[default]
     Plate,
     /// An ellipsoid with these semi-axes, in L, the first along the stream.
@@ -31,7 +31,8 @@ pub enum ShearSource {
 pub struct TurbulenceParams {
     /// Re = U₀L/ν. Default 3.8e3 (thesis Fig. 4.2).
     pub reynolds: f64,
-    /// Cells along the stream and across it. Default 32 × 32 × 16 (thesis Fig. 4.2).
+    /// Cells along the stream and across it. Default 32 × 32 × 16 (thesis Fig. 4.2; its timings are of
+    /// 32 × 32 × 8).
     pub cells: [usize; 3],
     /// Edge of a cell in L. Default 1/8.
     pub cell_size: f64,

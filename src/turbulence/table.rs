@@ -186,17 +186,11 @@ impl TurbulenceTable {
             "1 (the flow's own speed and length)",
         )?;
         let count = file.length("number of history entries", MAX_ENTRIES)?;
-        let mut dims = [0; 3];
-        for n in &mut dims {
-            *n = file.length("field nodes", 1 << 10)?;
-        }
+        let dims = file.lengths("field nodes", 1 << 10)?;
         let frames = file.length("field frames", 1 << 16)?;
         let reynolds = file.f64("reynolds")?;
         let time_step = file.f64("time_step")?;
-        let mut three = |name| -> Result<[f64; 3], Error> {
-            Ok([file.f64(name)?, file.f64(name)?, file.f64(name)?])
-        };
-        let (origin, spacing) = (three("field origin")?, three("field spacing")?);
+        let (origin, spacing) = (file.three("field origin")?, file.three("field spacing")?);
         let field_step = file.f64("field time_step")?;
         let nodes = dims.iter().map(|n| *n as u64).product::<u64>() * frames as u64;
         file.expect_payload(bytes, (count as u64 + nodes) * 8)?;
