@@ -13,6 +13,7 @@ pub mod geometry;
 pub mod hydro;
 mod math;
 pub mod reduced;
+pub mod turbulence;
 
 pub use body::{DryMass, ImmersedBody};
 pub use coupling::{ForceAndTorque, ForceBreakdown, Immersion, RapierSets, Warning, preset};
