@@ -236,7 +236,12 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     let moved = (middle.linear + cross(&a, &middle.linear))
         * (h / (T::one() + a.x * a.x + a.y * a.y + a.z * a.z));
     motion.displacement += rotate(&motion.attitude, &moved);
-    motion.attitude = turned(&motion.attitude, &a);
+    // Turning by nothing would still round.
+    let turned = turned(&motion.attitude, &a);
+    let attitude = turned.coords.zip_map(&motion.attitude.coords, |new, old| {
+        old.where_less(h, done, new)
+    });
+    motion.attitude = Quaternion::from_vector(attitude);
 }
 
 /// Advances `motion` by `dt` in `count` substeps, of which `most` is the largest over the lanes.

@@ -1,11 +1,14 @@
 //! What must hold: one physical law or promise per module.
 
+mod determinism;
 mod equivalence;
 mod impact;
 mod kirchhoff;
 mod lifecycle;
 mod plain;
+mod readout;
 mod robustness;
 mod sphere;
 mod stream;
 mod support;
+mod thesis_law;

@@ -43,8 +43,8 @@ impl ThesisLaw {
             drag,
             rotational_lift,
             translational_lift,
-            regularisation: 0.05,
-            damping: 1.0,
+            regularisation: 0.02,
+            damping: 0.3,
         }
     }
 

@@ -1,0 +1,77 @@
+//! A steady step allocates nothing of its own: counted by the allocator itself.
+//!
+//! Rapier lists every body that is accessed mutably, and throws that list away in each step: the list's
+//! growth is what remains, the same as for a loop that only touches the bodies.
+
+use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: hands every call on to the system allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn before_and_after_allocate_nothing_in_flight() {
+    let mut world = PhysicsWorld::new();
+    let leaves: Vec<_> = (0..100)
+        .map(|i| {
+            let at = Vector::new(i as Real, 50.0, 0.0);
+            let body = RigidBodyBuilder::dynamic().translation(at).rotation(at);
+            world
+                .insert(
+                    body,
+                    ColliderBuilder::cuboid(0.04, 0.0003, 0.02).density(300.0),
+                )
+                .0
+        })
+        .collect();
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaves[0]).unwrap();
+    let mut immersion = Immersion::new(Fluid::AIR);
+    immersion.set_flow(rapier3d_immersed::flow::Uniform::new(1.0, 0.0, 0.0));
+    immersion.insert_all(leaves.iter().copied(), hydro);
+    // Lists grow to their size.
+    for _ in 0..20 {
+        immersion.step(&mut world);
+    }
+    let (mut allocations, mut touching) = (0, 0);
+    for _ in 0..100 {
+        // The list is empty after a step.
+        world.step();
+        let start = ALLOCATIONS.load(Ordering::Relaxed);
+        for leaf in &leaves {
+            world.bodies.get_mut(*leaf);
+        }
+        touching += ALLOCATIONS.load(Ordering::Relaxed) - start;
+        world.step();
+
+        let start = ALLOCATIONS.load(Ordering::Relaxed);
+        immersion.before_step(&mut RapierSets::of(&mut world));
+        let middle = ALLOCATIONS.load(Ordering::Relaxed);
+        world.step();
+        let resumed = ALLOCATIONS.load(Ordering::Relaxed);
+        immersion.after_step(&mut RapierSets::of(&mut world));
+        allocations += (middle - start) + (ALLOCATIONS.load(Ordering::Relaxed) - resumed);
+    }
+    // Once before and once after the step.
+    assert_eq!(allocations, 2 * touching);
+}
