@@ -20,5 +20,5 @@ pub use coupling::{ForceAndTorque, ForceBreakdown, Immersion, RapierSets, Warnin
 pub use dynamics::{FreeBody, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;
-pub use hydro::{HydroProperties, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw};
+pub use hydro::{Accuracy, HydroProperties, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw};
 pub use rapier3d;

@@ -69,15 +69,8 @@ impl Surface {
                 Ok(revolve(&profile, 4 * cells, volume)?.posed(&pose))
             }
             TypedShape::Compound(s) => {
-                let mut whole: Option<Self> = None;
-                for (pose, part) in s.shapes() {
-                    let part = Self::panelled(part.as_ref(), cells)?.posed(pose);
-                    match &mut whole {
-                        Some(whole) => whole.append(&part),
-                        None => whole = Some(part),
-                    }
-                }
-                whole.ok_or(Error::EmptyMesh)
+                let parts: Vec<_> = s.shapes().iter().map(|(p, s)| (*p, s.as_ref())).collect();
+                Self::of_parts(&parts, |part| Self::panelled(part, cells))
             }
             _ => Self::from_shape(shape),
         }

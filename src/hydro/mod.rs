@@ -1,5 +1,6 @@
 //! What the fluid feels of a shape, and how it pushes back.
 
+pub mod accuracy;
 pub mod added_mass;
 #[cfg(feature = "bake")]
 pub mod boundary_element;
@@ -9,6 +10,7 @@ pub mod planform;
 pub mod properties;
 pub mod viscous;
 
+pub use accuracy::Accuracy;
 pub use added_mass::AddedMass;
 pub use planform::Planform;
 pub use properties::HydroProperties;

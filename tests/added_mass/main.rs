@@ -4,6 +4,7 @@
 //! same bodies converge further with more panels.
 
 mod bodies;
+mod coupled;
 mod sheets;
 mod symmetry;
 

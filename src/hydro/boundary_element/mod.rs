@@ -17,21 +17,8 @@
 //! of a leaf in its own plane, 10⁻⁴ of the broadside one, is right in its order of magnitude only.
 //!
 //! # When the proxy ellipsoid will do
-//! Difference between the ellipsoid with the same three shadows and the shape, measured with the
-//! `added_mass` example; rotations relative to the larger of added and displaced inertia.
-//!
-//! | shape | translation | rotation |
-//! |---|---|---|
-//! | ellipsoid, ball, elliptic disc | 0 | 0 |
-//! | box 1 × 1 × 0.05 | 6 % | 11 % |
-//! | box 1 × 2 × 0.05 | 5 % | 12 % |
-//! | cube | 41 % | 24 % |
-//! | box 1 × 1 × 10 | 35 % | 43 % |
-//! | coin, diameter 1, height 0.1 | 16 % | 19 % |
-//! | cylinder, diameter 1, height 2 | 20 % | 7 % |
-//! | cylinder, diameter 1, height 10 | 12 % | 5 % |
-//! | cone, diameter 1, height 2 | 4 % | 50 % |
-//! | capsule, diameter 1, length 2 | 8 % | 5 % |
+//! See the table at [`Accuracy`](super::Accuracy), by which
+//! [`HydroProperties::from_shape_with`](super::HydroProperties::from_shape_with) solves.
 //!
 //! # Cost
 //! Half as many unknowns as panels. Processor time on one core (divide by the cores) for a ball of
@@ -46,6 +33,7 @@ mod assemble;
 mod cache;
 mod pair;
 mod panel;
+mod properties;
 mod refine;
 mod shape;
 mod solve;

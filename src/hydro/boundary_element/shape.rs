@@ -31,22 +31,15 @@ impl AddedMass {
             tolerance,
             ..BoundaryElementParams::default()
         };
+        params.check()?;
         let reference = crate::math::to_f64(reference_point);
-        for (parameter, value) in [
+        let names = [
             "reference_point.x",
             "reference_point.y",
             "reference_point.z",
-        ]
-        .iter()
-        .zip(reference.iter())
-        {
-            if !value.is_finite() {
-                return Err(Error::InvalidParameter {
-                    parameter,
-                    requirement: "finite",
-                    value: *value,
-                });
-            }
+        ];
+        for (parameter, value) in names.into_iter().zip(reference.iter()) {
+            Error::check_finite(parameter, *value)?;
         }
         if let TypedShape::Ball(ball) = shape.as_typed_shape() {
             let radius = Error::check_positive("radius", ball.radius.into())?;
@@ -90,6 +83,6 @@ impl BoundaryElementSolution {
 }
 
 /// Cells of each mesh: half as many again as the one before, 6, 9, 14, 21, 32 …
-fn cells(level: usize) -> usize {
+pub(super) fn cells(level: usize) -> usize {
     (0..level).fold(FIRST_CELLS, |cells, _| cells + cells.div_ceil(2))
 }
