@@ -224,11 +224,18 @@ impl Immersion {
         match entered {
             Ok((original, kind)) => {
                 let mass = original.dry.mass;
-                let description = &self.kinds[kind as usize];
                 // After loading a snapshot rapier's body is as the kind wants it already, but
                 // setting it again changes nothing.
-                if fresh.is_some() || !self.loaded(index) {
-                    original.immerse(description, mass, handle, sets.bodies, sets.colliders);
+                let loaded = fresh.is_none() && self.loaded(index);
+                if !loaded {
+                    self.newcomers.push(handle);
+                    original.immerse(
+                        &self.kinds[kind as usize],
+                        mass,
+                        handle,
+                        sets.bodies,
+                        sets.colliders,
+                    );
                 }
                 if let Some(slot) = &mut self.slots[index] {
                     if fresh.is_some() || slot.flight.solver_mass == 0.0 {
@@ -236,7 +243,6 @@ impl Immersion {
                     }
                     slot.kind = kind;
                     slot.original = Some(Box::new(original));
-                    self.newcomers.push(handle);
                 }
                 if let Some(relative_error) = fresh.filter(|error| *error > 0.01) {
                     self.warn(Warning::WrongInertia {
@@ -313,7 +319,8 @@ impl Immersion {
         let (Some(slot), Some(body)) = (self.slots[index].as_ref(), sets.bodies.get(handle)) else {
             return;
         };
-        if slot.original.is_none() || slot.kind == NONE || !body.is_dynamic() {
+        if slot.original.is_none() || slot.kind == NONE || !body.is_dynamic() || body.is_sleeping()
+        {
             return;
         }
         let kind = &self.kinds[slot.kind as usize];

@@ -1,0 +1,336 @@
+//! A few hundred leaves and some confetti fall on a floor with obstacles: they flutter, tumble,
+//! collide and come to rest. Beside it the same scene in plain rapier.
+//!
+//! ```text
+//! cargo run --release --example falling_leaves
+//! cargo run --release --example falling_leaves -- --fluid water --leaves 100
+//! cargo run --release --example falling_leaves -- --mesh my_leaf.obj --scale 0.001
+//! ```
+//!
+//! Writes `frames.svg` (moments of the run), `trajectories.svg` (both runs, from the side and from
+//! above), `leaves.glb` (an animation for 3-D tools) and `summary.json`.
+
+mod support;
+
+use clap::Parser;
+use rand::{RngExt, SeedableRng};
+use rapier3d_immersed::coupling::{Immersion, Warning, preset};
+use rapier3d_immersed::rapier3d::math::{Pose, Rotation, Vector};
+use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
+use serde_json::json;
+use std::path::PathBuf;
+use support::cli::{self, FluidName, bad_value};
+use support::leaf::{Blade, Outline};
+use support::recording::{RunOptions, run};
+use support::scene::{Kind, Scene};
+use support::summary::{Summary, table};
+use support::{Quat, Vec3, gallery, glb, mesh};
+
+/// Leaves and confetti fall on a floor with obstacles; the same scene in plain rapier beside it.
+#[derive(Parser, Debug)]
+#[command(name = "falling_leaves", version, allow_negative_numbers = true)]
+struct Options {
+    /// Number of leaves
+    #[arg(long, value_name = "N", default_value = "300", value_parser = clap::value_parser!(u32).range(0..=20_000))]
+    leaves: u32,
+    /// Number of pieces of confetti [default: a third of --leaves]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
+    confetti: Option<u32>,
+    /// Simulated time, s [default: 7 in air, 40 in water]
+    #[arg(long, value_name = "S", value_parser = cli::positive)]
+    seconds: Option<f64>,
+    /// Fluid to fall through
+    #[arg(long, value_enum, default_value = "air")]
+    fluid: FluidName,
+    /// A leaf of your own, OBJ or STL in metres, instead of the built-in outlines: a closed solid, or
+    /// an open sheet that gets a thickness of 0.3 mm
+    #[arg(long, value_name = "FILE")]
+    mesh: Option<PathBuf>,
+    /// Factor for the coordinates of --mesh: 0.001 for millimetres
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = cli::positive)]
+    scale: f64,
+    /// Density of the leaves, kg/m³ [default: 350 in air, 1400 in water]
+    #[arg(long, value_name = "KG/M3", value_parser = cli::positive)]
+    density: Option<f64>,
+    /// Seed of the release: places, attitudes, colours
+    #[arg(long, value_name = "N", default_value = "7")]
+    seed: u64,
+    /// Time step, s [default: 1/240, the leaf-scale preset]
+    #[arg(long, value_name = "S", value_parser = cli::positive)]
+    dt: Option<f64>,
+    /// Frames per second of the animation
+    #[arg(long, value_name = "HZ", default_value = "30", value_parser = cli::positive)]
+    frame_rate: f64,
+    /// Skip the run in plain rapier
+    #[arg(long)]
+    no_compare: bool,
+    /// Folder for the files
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// Print the summary as one JSON object instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+/// Linear RGB.
+const AUTUMN: [[f32; 3]; 5] = [
+    [0.55, 0.16, 0.02],
+    [0.70, 0.33, 0.03],
+    [0.42, 0.06, 0.03],
+    [0.62, 0.48, 0.06],
+    [0.26, 0.30, 0.06],
+];
+const CONFETTI: [[f32; 3]; 3] = [[0.05, 0.30, 0.65], [0.75, 0.08, 0.30], [0.85, 0.85, 0.85]];
+const STONE: [f32; 3] = [0.42, 0.44, 0.47];
+
+fn main() {
+    let options: Options = cli::parse();
+    let seconds = options.seconds.unwrap_or(match options.fluid {
+        FluidName::Air => 7.0,
+        FluidName::Water => 40.0,
+    });
+    let kinds = kinds(&options);
+    let mut scene = build(&options, &kinds);
+    if scene.pieces.is_empty() {
+        bad_value("--leaves", "with --confetti 0 there has to be a leaf");
+    }
+    let dt = f64::from(scene.world.integration_parameters.dt);
+    if seconds / dt > 1e6 {
+        bad_value("--seconds", "more than a million steps");
+    }
+    let frames = seconds * options.frame_rate.min(1.0 / dt) * scene.pieces.len() as f64;
+    if frames > 2e7 {
+        bad_value("--frame-rate", "more than 20 million poses to record");
+    }
+
+    let fluid = options.fluid.fluid();
+    let mut immersion = Immersion::new(fluid);
+    for (index, kind) in scene.kinds.iter().enumerate() {
+        let handles = scene
+            .pieces
+            .iter()
+            .filter(|p| p.kind == index)
+            .map(|p| p.handle);
+        immersion.insert_all(handles, (*kind.body).clone());
+    }
+    let run_options = RunOptions {
+        seconds,
+        frame_rate: options.frame_rate,
+        message: "immersed",
+    };
+    let recording = run(&mut scene, &run_options, |world| immersion.step(world));
+    report_warnings(immersion.warnings());
+    let summary = Summary::of(&scene, &recording);
+
+    let plain = (!options.no_compare).then(|| {
+        let mut scene = build(&options, &kinds);
+        let run_options = RunOptions {
+            message: "plain rapier",
+            ..run_options
+        };
+        let recording = run(&mut scene, &run_options, PhysicsWorld::step);
+        (Summary::of(&scene, &recording), recording)
+    });
+    let plain_summary = plain.as_ref().map(|(summary, _)| summary);
+
+    let json = json!({
+        "pieces": scene.pieces.len(),
+        "immersed": summary.json(),
+        "plain": plain_summary.map(Summary::json),
+    });
+    let files = [
+        (
+            "frames.svg",
+            gallery::frames(&scene, &recording, &summary).into_bytes(),
+        ),
+        (
+            "trajectories.svg",
+            gallery::trajectories(&scene, &recording, plain.as_ref().map(|(_, r)| r)).into_bytes(),
+        ),
+        ("leaves.glb", glb::animation(&scene, &recording)),
+        ("summary.json", format!("{json:#}\n").into_bytes()),
+    ];
+    for (name, content) in &files {
+        cli::write(&options.out.join(name), content);
+    }
+    if options.json {
+        println!("{json:#}");
+    } else {
+        println!(
+            "{} leaves and pieces of confetti, {seconds} s in {}",
+            scene.pieces.len(),
+            match options.fluid {
+                FluidName::Air => "air",
+                FluidName::Water => "water",
+            }
+        );
+        print!("{}", table(&summary, plain_summary));
+        let names = files.map(|(name, _)| options.out.join(name).display().to_string());
+        println!("wrote {}", names.join(", "));
+    }
+}
+
+/// One line for all pieces whose inertia rapier alone would have wrong, one each for anything else.
+fn report_warnings(warnings: &[Warning]) {
+    let is_inertia = |warning: &&Warning| matches!(warning, Warning::WrongInertia { .. });
+    let corrected = warnings.iter().filter(is_inertia).count();
+    if corrected > 0 {
+        eprintln!(
+            "note: rapier's own inertia of {corrected} pieces is wrong; corrected while immersed"
+        );
+    }
+    for warning in warnings.iter().filter(|warning| !is_inertia(warning)) {
+        eprintln!("warning: {warning}");
+    }
+}
+
+/// Leaves first, confetti last.
+fn kinds(options: &Options) -> Vec<Kind> {
+    let (leaf, paper) = match options.fluid {
+        FluidName::Air => (350.0, 800.0),
+        // Soaked leaves sink by 1 to 2 cm/s; these are of plastic, for the patience of the viewer.
+        FluidName::Water => (1400.0, 2000.0),
+    };
+    let leaf = options.density.unwrap_or(leaf);
+    let mut kinds = match &options.mesh {
+        Some(path) => {
+            let problem = |text: String| -> ! {
+                bad_value("--mesh", format!("{}: {text}", path.display()));
+            };
+            let mut raw = mesh::load(path).unwrap_or_else(|text| bad_value("--mesh", text));
+            for vertex in &mut raw.vertices {
+                *vertex *= options.scale;
+            }
+            let solid = raw.solid(0.0003).unwrap_or_else(|text| problem(text));
+            let solid = mesh::aligned(&solid);
+            let size = solid.size();
+            if !(1e-3..=1.0).contains(&size) {
+                problem(format!(
+                    "{size:.3e} m across; this scene is for leaves of 1 mm to 1 m (see --scale)"
+                ));
+            }
+            vec![Kind::new(&solid, leaf, None).unwrap_or_else(|text| problem(text))]
+        }
+        None => {
+            let blade = |outline, length, width, camber| Blade {
+                outline,
+                length,
+                width,
+                thickness: 0.0003,
+                camber,
+            };
+            [
+                blade(Outline::Elliptic, 0.073, 0.042, [0.001, 0.0015]),
+                blade(Outline::Ovate, 0.064, 0.044, [0.0015, 0.001]),
+                blade(Outline::Lanceolate, 0.080, 0.022, [0.002, 0.0]),
+                blade(Outline::Maple, 0.068, 0.070, [0.001, 0.001]),
+            ]
+            .map(|blade| built_in(&blade, leaf))
+            .into()
+        }
+    };
+    let confetti = Blade {
+        outline: Outline::Rectangle,
+        length: 0.028,
+        width: 0.014,
+        thickness: 0.0001,
+        camber: [0.0, 0.0],
+    };
+    kinds.push(built_in(&confetti, paper));
+    kinds
+}
+
+fn built_in(blade: &Blade, density: f64) -> Kind {
+    let outline = blade.outline.points(blade.length, blade.width, 20);
+    let picture: Vec<Vec3> = outline.iter().map(|p| Vec3::new(p[0], 0.0, p[1])).collect();
+    let solid = blade.solid().expect("a blade is a closed solid");
+    Kind::new(&solid, density, Some(&picture))
+        .unwrap_or_else(|problem| bad_value("--density", problem))
+}
+
+/// Floor, obstacles, and all pieces at rest above them. Equal options give equal scenes.
+fn build(options: &Options, kinds: &[Kind]) -> Scene {
+    let mut world = PhysicsWorld::new();
+    preset::leaf_scale(&mut world.integration_parameters);
+    if let Some(dt) = options.dt {
+        world.integration_parameters.dt = dt as f32;
+    }
+    let mut scene = Scene::new(world);
+    scene.kinds = kinds.to_vec();
+    furnish(&mut scene);
+
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(options.seed);
+    let confetti = options.confetti.unwrap_or(options.leaves / 3);
+    let count = options.leaves + confetti;
+    let mut order: Vec<bool> = (0..count).map(|i| i < options.leaves).collect();
+    for i in (1..order.len()).rev() {
+        order.swap(i, random.random_range(0..=i));
+    }
+    // A grid wide enough for any attitude, every piece somewhere in its cell.
+    let size = kinds
+        .iter()
+        .map(|kind| kind.solid.size())
+        .fold(0.0, f64::max);
+    let cell = (1.3 * size).max(0.11);
+    let (width, lowest, highest) = match options.fluid {
+        FluidName::Air => (0.7, 0.9, 2.6),
+        FluidName::Water => (1.4, 0.45, 0.8),
+    };
+    let across = ((width / cell) as u32).max(3);
+    let layers = count.div_ceil(across * across).max(1);
+    let rise = cell.max((highest - lowest) / f64::from(layers));
+    for (i, is_leaf) in order.into_iter().enumerate() {
+        let i = i as u32;
+        let place = [i % across, (i / across) % across, i / (across * across)];
+        let mut shift = |room: f64| {
+            let free = 0.5 * (room - size).max(0.0);
+            random.random_range(-free..=free)
+        };
+        let middle = 0.5 * f64::from(across - 1);
+        let position = Vec3::new(
+            (f64::from(place[0]) - middle) * cell + shift(cell),
+            lowest + (f64::from(place[2]) + 0.5) * rise + shift(rise),
+            (f64::from(place[1]) - middle) * cell + shift(cell),
+        );
+        let mut angle = || random.random_range(-1.0..1.0_f64);
+        // Near level, as from a twig, in any direction.
+        let heading = Quat::from_axis_angle(&Vec3::y_axis(), std::f64::consts::PI * angle());
+        let tilt = Quat::from_scaled_axis(Vec3::new(angle(), 0.0, angle()) * 0.9);
+        let spin = Vec3::new(angle(), angle(), angle()) * 2.0;
+        let leaf_kinds = kinds.len() - 1;
+        let (kind, color) = if is_leaf {
+            (
+                random.random_range(0..leaf_kinds),
+                AUTUMN[random.random_range(0..AUTUMN.len())],
+            )
+        } else {
+            (leaf_kinds, CONFETTI[random.random_range(0..CONFETTI.len())])
+        };
+        // From the frame of the piece, whichever way its normal points, to lying flat.
+        let axes = &kinds[kind].body.hydro.planform.axes;
+        let normal = axes * Vec3::z();
+        let level = Quat::rotation_between(&normal, &Vec3::y()).unwrap_or_else(Quat::identity);
+        scene.add_piece(
+            kind,
+            color,
+            (position, heading * tilt * level),
+            spin,
+            preset::leaf_body,
+        );
+    }
+    scene
+}
+
+/// Floor, two blocks, a ramp and a ball.
+fn furnish(scene: &mut Scene) {
+    let at = |x: f32, y: f32, z: f32| Pose::from_translation(Vector::new(x, y, z));
+    scene.add_box(at(0.0, -0.05, 0.0), [14.0, 0.1, 14.0], [0.62, 0.58, 0.50]);
+    scene.add_box(at(-0.55, 0.15, -0.25), [0.35, 0.3, 0.4], STONE);
+    scene.add_box(at(-0.25, 0.06, 0.45), [0.5, 0.12, 0.2], STONE);
+    scene.add_ball(at(0.35, 0.2, 0.35), 0.2, [0.18, 0.30, 0.38]);
+    let ramp = Pose::from_parts(
+        Vector::new(0.45, 0.17, -0.35),
+        Rotation::from_rotation_z(-0.6),
+    );
+    scene.add_box(ramp, [0.7, 0.03, 0.6], [0.35, 0.24, 0.14]);
+}

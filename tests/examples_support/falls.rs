@@ -1,0 +1,147 @@
+//! A run of `drop` is the same in rapier and in the crate's own free body, and tells a law that pumps
+//! energy from one that does not.
+
+use crate::support::cli::Lengths;
+use crate::support::fall::{Fall, FallOptions, IntegratorName, Release};
+use crate::support::law::{LawName, law};
+use crate::support::specimen::{ShapeName, Specimen};
+use crate::support::{Vec3, picture};
+use rapier3d_immersed::{Fluid, ImmersedBody, ViscousLaw};
+
+fn fall(
+    shape: ShapeName,
+    size: &[f64],
+    density: f64,
+    fluid: &Fluid,
+    law: ViscousLaw,
+    options: &FallOptions,
+) -> Fall {
+    let specimen = Specimen::new(shape, Some(&Lengths(size.to_vec())), None, 1e-3).unwrap();
+    let body = ImmersedBody::new(specimen.hydro.clone())
+        .with_law(law)
+        .unwrap();
+    let release = Release {
+        orientation: specimen.released_at(0.4),
+        velocity: Vec3::zeros(),
+        spin: Vec3::zeros(),
+    };
+    Fall::run(&body, &specimen.dry_mass(density), fluid, &release, options).unwrap()
+}
+
+const OPTIONS: FallOptions = FallOptions {
+    gravity: 9.81,
+    dt: 1.0 / 240.0,
+    seconds: 2.0,
+    integrator: IntegratorName::Free,
+    forces: false,
+};
+
+#[test]
+fn rapier_and_the_free_body_fall_alike() {
+    let fall = |integrator| {
+        let options = FallOptions {
+            integrator,
+            forces: true,
+            ..OPTIONS
+        };
+        let size = [0.01134, 0.00081, 0.1];
+        fall(
+            ShapeName::Plate,
+            &size,
+            2700.0,
+            &Fluid::WATER,
+            ViscousLaw::default(),
+            &options,
+        )
+    };
+    let (free, rapier) = (fall(IntegratorName::Free), fall(IntegratorName::Rapier));
+    assert_eq!(free.samples.len(), 481);
+    for (a, b) in free.samples.iter().zip(&rapier.samples) {
+        // Velocities are the same up to single precision; positions by 0.125·Δv·dt besides. Both
+        // add up over the flutter's swings.
+        assert!((a.velocity - b.velocity).norm() < 2e-3, "{a:?}\n{b:?}");
+        assert!((a.position - b.position).norm() < 2e-3, "{a:?}\n{b:?}");
+        assert!((a.normal - b.normal).norm() < 2e-2, "{a:?}\n{b:?}");
+    }
+    assert!(free.stable && rapier.stable);
+    let lines: Vec<String> = rapier.csv().lines().map(str::to_string).collect();
+    assert_eq!(lines.len(), 1 + 481);
+    let columns = 14 + 8 * 6;
+    assert!(lines.iter().all(|line| line.split(',').count() == columns));
+    let picture = picture::fall(&rapier.samples, 0.01134).unwrap();
+    assert!(picture.starts_with("<svg") && picture.trim_end().ends_with("</svg>"));
+}
+
+#[test]
+fn a_light_sphere_rises_as_its_added_mass_lets_it() {
+    let options = FallOptions {
+        dt: 1e-3,
+        seconds: 0.02,
+        integrator: IntegratorName::Rapier,
+        ..OPTIONS
+    };
+    let inviscid = ViscousLaw::Inviscid;
+    let fall = fall(
+        ShapeName::Sphere,
+        &[0.1],
+        100.0,
+        &Fluid::WATER,
+        inviscid,
+        &options,
+    );
+    // (ρ − ρ_s) g/(ρ_s + ρ/2), the exact acceleration in an ideal fluid.
+    let exact = (997.0 - 100.0) * 9.81 / (100.0 + 997.0 / 2.0);
+    let last = fall.samples.last().unwrap();
+    assert!((last.velocity.y / (exact * last.time) - 1.0).abs() < 2e-3);
+    assert!(fall.stable, "rising is no gain out of nothing");
+}
+
+#[test]
+fn a_law_that_pumps_energy_is_called_unstable() {
+    // A card of 300 kg/m³ spins up without bound under the law as printed.
+    let size = [0.073, 0.042, 0.0003];
+    let options = FallOptions {
+        seconds: 5.0,
+        ..OPTIONS
+    };
+    let run = |name, coefficients| {
+        let law = law(name, coefficients).unwrap();
+        fall(ShapeName::Ellipse, &size, 300.0, &Fluid::AIR, law, &options).stable
+    };
+    assert!(run(LawName::Default, None));
+    assert!(!run(LawName::ThesisPrinted, Some("ar")));
+}
+
+#[test]
+fn coefficients_are_read_or_refused() {
+    let thesis = law(LawName::Thesis, Some("1,2,-3")).unwrap();
+    assert!(matches!(thesis, ViscousLaw::Thesis(t) if t.translational_lift == -3.0));
+    let physical = law(LawName::Default, Some("munk=0.5,attached-lift=3")).unwrap();
+    assert!(matches!(physical, ViscousLaw::Physical(p) if p.munk == 0.5 && p.attached_lift == 3.0));
+    for (name, text) in [
+        (LawName::Default, "0.5"),
+        (LawName::Default, "mink=0.5"),
+        (LawName::Default, "munk=nan"),
+        (LawName::Thesis, "1,2"),
+        (LawName::ThesisPrinted, "xx"),
+        (LawName::Stochastic, "1"),
+        (LawName::Inviscid, "1"),
+    ] {
+        assert!(law(name, Some(text)).is_err(), "{name:?} {text}");
+    }
+}
+
+#[test]
+fn runs_that_are_too_long_or_too_short_name_their_flag() {
+    let check = |dt, seconds| {
+        FallOptions {
+            dt,
+            seconds,
+            ..OPTIONS
+        }
+        .check()
+    };
+    assert_eq!(check(1e-9, 10.0).unwrap_err().0, "--seconds");
+    assert_eq!(check(1.0, 2.0).unwrap_err().0, "--dt");
+    assert!(check(1e-3, 10.0).is_ok());
+}

@@ -1,0 +1,11 @@
+//! What the examples share is tested here: examples themselves have no tests.
+
+#[path = "../../examples/support/mod.rs"]
+mod support;
+
+mod animation;
+mod falls;
+mod leaves;
+mod meshes;
+mod specimens;
+mod statistics;
