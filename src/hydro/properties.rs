@@ -46,9 +46,7 @@ impl HydroProperties {
     /// Properties of a closed surface, referred to `reference`, with the added mass of the proxy
     /// ellipsoid.
     ///
-    /// How good that proxy is (added mass of the proxy over that of the shape, broadside /
-    /// edgewise or axial): ellipsoids and discs exact; square plate 1.05 / –, 1:2 plate 1.04 / –,
-    /// cube 0.59; rotation of a square plate about a diameter 1.01.
+    /// How good that proxy is: see [`Accuracy`](super::Accuracy).
     pub fn from_surface(surface: &Surface, reference: Vector3<f64>) -> Self {
         let integrals = surface.volume_integrals();
         let axes = principal_axes(surface, &integrals.second_moment);

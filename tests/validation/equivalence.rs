@@ -39,7 +39,7 @@ fn step_by_step() {
             0.1,
         );
         let (handle, _) = world.insert(
-            RigidBodyBuilder::dynamic().position(Pose::from_parts(Vector::ZERO, start)),
+            RigidBodyBuilder::dynamic().pose(Pose::from_parts(Vector::ZERO, start)),
             ColliderBuilder::cuboid(half[0], half[1], half[2]).density(300.0),
         );
         let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
