@@ -4,7 +4,7 @@
 use crate::support::cli::Lengths;
 use crate::support::fall::{Fall, FallOptions, IntegratorName, Release};
 use crate::support::law::{LawName, law};
-use crate::support::specimen::{ShapeName, Specimen};
+use crate::support::specimen::{ShapeName, Specimen, TiltAxis};
 use crate::support::{Vec3, picture};
 use rapier3d_immersed::{Fluid, ImmersedBody, ViscousLaw};
 
@@ -21,7 +21,7 @@ fn fall(
         .with_law(law)
         .unwrap();
     let release = Release {
-        orientation: specimen.released_at(0.4),
+        orientation: specimen.released_at(0.4, TiltAxis::usual(shape)),
         velocity: Vec3::zeros(),
         spin: Vec3::zeros(),
     };
