@@ -21,7 +21,7 @@ fn fall(
         .with_law(law)
         .unwrap();
     let release = Release {
-        orientation: specimen.released_at(0.4, TiltAxis::usual(shape)),
+        orientation: specimen.released_at(0.4, TiltAxis::Long),
         velocity: Vec3::zeros(),
         spin: Vec3::zeros(),
     };
