@@ -109,6 +109,8 @@ impl DryMass {
 }
 
 /// The viscous law's constants of one body; which variant decides the list that the body is in.
+// One per body, and the largest is what almost every body has: a box would save nothing.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LawConstants {
     Inviscid,

@@ -89,17 +89,174 @@ pub enum Error {
         /// Diagonal of its bounding box, m.
         size: f64,
     },
+
+    /// A triangle is so thin that it has no normal.
+    #[error("triangle {triangle} at {at:?} has no area to speak of")]
+    DegenerateTriangle {
+        /// Index of the first such triangle.
+        triangle: usize,
+        /// Its centroid, m.
+        at: [f64; 3],
+    },
+
+    /// More than two triangles of a sheet meet at an edge.
+    #[error("the sheet branches: more than two triangles meet from {from:?} to {to:?}")]
+    BranchingMesh {
+        /// One end of the first such edge, m.
+        from: [f64; 3],
+        /// Its other end, m.
+        to: [f64; 3],
+    },
+
+    /// A sheet has one side only, like a Möbius strip.
+    #[error("the sheet has one side only: its triangles cannot agree from {from:?} to {to:?}")]
+    OneSidedSheet {
+        /// One end of the edge where that shows, m.
+        from: [f64; 3],
+        /// Its other end, m.
+        to: [f64; 3],
+    },
+
+    /// Two triangles of a mesh pass through each other.
+    #[error("triangles {first} and {second} of the mesh intersect near {at:?}")]
+    SelfIntersection {
+        /// Index of one triangle.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+        /// A point that both contain, m.
+        at: [f64; 3],
+    },
+
+    /// One of several closed parts of a mesh is turned inside out.
+    #[error("the part of the mesh around {center:?}, with triangle {triangle}, is inside out")]
+    InsideOut {
+        /// Index of a triangle of the part.
+        triangle: usize,
+        /// Center of its bounding box, m.
+        center: [f64; 3],
+    },
+
+    /// A mesh is larger than the solver was allowed to take on.
+    #[error("the mesh has {panels} triangles, more than max_panels = {max_panels}")]
+    TooManyPanels {
+        /// Triangles of the mesh.
+        panels: usize,
+        /// The limit.
+        max_panels: usize,
+    },
+
+    /// A list has the wrong number of entries.
+    #[error("{what}: {actual} given where {expected} are needed")]
+    WrongLength {
+        /// Which list.
+        what: &'static str,
+        /// How many entries it must have (the least, where more are allowed).
+        expected: usize,
+        /// How many it has.
+        actual: usize,
+    },
+
+    /// An entry of a list is not a finite number.
+    #[error("{what}: entry {index} is {value}")]
+    NotFinite {
+        /// Which list.
+        what: &'static str,
+        /// Position of the entry, from 0.
+        index: usize,
+        /// The entry.
+        value: f64,
+    },
+
+    /// The bytes do not start like a file of the expected kind.
+    #[error("not a {file} file")]
+    WrongFileKind {
+        /// Kind of file that was expected, e.g. `"turbulence table"`.
+        file: &'static str,
+    },
+
+    /// The file was written by a version of this crate that this one cannot read.
+    #[error("{file} file has version {found}, but only version {supported} can be read")]
+    UnsupportedFileVersion {
+        /// Kind of file.
+        file: &'static str,
+        /// The version that the file declares.
+        found: u32,
+        /// The version that this crate reads and writes.
+        supported: u32,
+    },
+
+    /// The file is shorter or longer than its header declares.
+    #[error("{file} file should have {expected} bytes, but has {found}")]
+    WrongFileLength {
+        /// Kind of file.
+        file: &'static str,
+        /// Bytes that the header asks for (at least a whole header).
+        expected: u64,
+        /// Bytes that there are.
+        found: u64,
+    },
+
+    /// The file was altered or damaged after it was written.
+    #[error("{file} file has checksum {found:016x}, but declares {declared:016x}")]
+    AlteredFile {
+        /// Kind of file.
+        file: &'static str,
+        /// Checksum in the file.
+        declared: u64,
+        /// Checksum of what the file contains.
+        found: u64,
+    },
+
+    /// The content of a file cannot be decoded, although its checksum is right.
+    #[error("{file} file: its {length} bytes of content cannot be decoded")]
+    UndecodableFile {
+        /// Kind of file.
+        file: &'static str,
+        /// Length of the content in bytes.
+        length: usize,
+    },
 }
 
 impl Error {
     /// `value` if it is positive and finite, otherwise the error that names it.
     pub(crate) fn check_positive(parameter: &'static str, value: f64) -> Result<f64, Self> {
-        if value > 0.0 && value.is_finite() {
+        Self::check(
+            parameter,
+            value,
+            value > 0.0 && value.is_finite(),
+            "positive and finite",
+        )
+    }
+
+    /// `value` if it is zero or positive, and finite, otherwise the error that names it.
+    pub(crate) fn check_not_negative(parameter: &'static str, value: f64) -> Result<f64, Self> {
+        Self::check(
+            parameter,
+            value,
+            value >= 0.0 && value.is_finite(),
+            "zero or positive, and finite",
+        )
+    }
+
+    /// `value` if it is finite, otherwise the error that names it.
+    pub(crate) fn check_finite(parameter: &'static str, value: f64) -> Result<f64, Self> {
+        Self::check(parameter, value, value.is_finite(), "finite")
+    }
+
+    /// `value` if it is `valid`, otherwise the error that names it and says what it has to be.
+    pub(crate) fn check(
+        parameter: &'static str,
+        value: f64,
+        valid: bool,
+        requirement: &'static str,
+    ) -> Result<f64, Self> {
+        if valid {
             Ok(value)
         } else {
             Err(Self::InvalidParameter {
                 parameter,
-                requirement: "positive and finite",
+                requirement,
                 value,
             })
         }
@@ -121,6 +278,35 @@ impl Error {
                 high,
                 value,
             })
+        }
+    }
+
+    /// An error if the list has a length other than `expected`.
+    pub(crate) fn check_length(
+        what: &'static str,
+        expected: usize,
+        actual: usize,
+    ) -> Result<(), Self> {
+        if expected == actual {
+            Ok(())
+        } else {
+            Err(Self::WrongLength {
+                what,
+                expected,
+                actual,
+            })
+        }
+    }
+
+    /// An error that names the first entry that is not finite.
+    pub(crate) fn check_all_finite(what: &'static str, values: &[f64]) -> Result<(), Self> {
+        match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(index) => Err(Self::NotFinite {
+                what,
+                index,
+                value: values[index],
+            }),
         }
     }
 }

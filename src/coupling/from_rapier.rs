@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::body::DryMass;
 use crate::geometry::Surface;
-use crate::hydro::HydroProperties;
+use crate::hydro::{Accuracy, HydroProperties};
 use crate::math::{to_f64, to_quaternion, to_real, to_rotation};
 use rapier3d::dynamics::{
     MassProperties, RigidBody, RigidBodyAdditionalMassProps, RigidBodyHandle, RigidBodySet,
@@ -24,18 +24,33 @@ impl HydroProperties {
         colliders: &ColliderSet,
         handle: RigidBodyHandle,
     ) -> Result<Self, Error> {
+        Self::from_body_with(bodies, colliders, handle, Accuracy::Proxy)
+    }
+
+    /// [`HydroProperties::from_body`] with the added mass as accurate as asked for.
+    ///
+    /// A solve that does not reach the tolerance is logged as a warning, not an error.
+    ///
+    /// # Errors
+    /// Those of [`HydroProperties::from_body`] and [`HydroProperties::from_shape_with`]; colliders
+    /// that touch or overlap, which make no single mesh, are an [`Error::SelfIntersection`].
+    pub fn from_body_with(
+        bodies: &RigidBodySet,
+        colliders: &ColliderSet,
+        handle: RigidBodyHandle,
+        accuracy: Accuracy,
+    ) -> Result<Self, Error> {
         let body = bodies.get(handle).ok_or(Error::NoBody)?;
-        let mut whole: Option<Surface> = None;
-        for (collider, pose) in attached(body, colliders).filter(|(c, _)| !c.is_sensor()) {
-            let part = Surface::from_shape(collider.shape())?.posed(&pose);
-            match &mut whole {
-                Some(whole) => whole.append(&part),
-                None => whole = Some(part),
-            }
+        let parts: Vec<_> = attached(body, colliders)
+            .filter(|(collider, _)| !collider.is_sensor())
+            .map(|(collider, pose)| (pose, collider.shape()))
+            .collect();
+        if parts.is_empty() {
+            return Err(Error::NoCollider);
         }
-        let surface = whole.ok_or(Error::NoCollider)?;
+        let surface = Surface::of_parts(&parts, Surface::from_shape)?;
         let center = DryMass::of_body(bodies, colliders, handle)?.center;
-        Ok(Self::from_surface(&surface, center))
+        Self::from_surface(&surface, center).with_accuracy(&parts, accuracy)
     }
 }
 
@@ -66,12 +81,11 @@ impl DryMass {
         let mut total = parts.into_iter().reduce(|sum, part| sum.combined(&part));
         match body.mass_properties().additional_local_mprops.as_deref() {
             None => {}
-            Some(RigidBodyAdditionalMassProps::MassProps(extra)) => {
-                if extra.mass() > 0.0 {
-                    let extra = of_mass_properties(extra, &Pose::IDENTITY);
-                    total = Some(total.map_or(extra, |total| total.combined(&extra)));
-                }
+            Some(RigidBodyAdditionalMassProps::MassProps(extra)) if extra.mass() > 0.0 => {
+                let extra = of_mass_properties(extra, &Pose::IDENTITY);
+                total = Some(total.map_or(extra, |total| total.combined(&extra)));
             }
+            Some(RigidBodyAdditionalMassProps::MassProps(_)) => {}
             // As rapier does: the inertia scales with the mass, or comes from the shapes.
             Some(RigidBodyAdditionalMassProps::Mass(extra)) => {
                 let extra = f64::from(*extra);
@@ -123,8 +137,13 @@ impl DryMass {
 
 /// How far rapier's inertia tensor is from the right one, relative to its largest entry.
 pub(super) fn inertia_error(rapier: &MassProperties, right: &DryMass) -> f64 {
-    let theirs = of_mass_properties(rapier, &Pose::IDENTITY).inertia;
+    let theirs = inertia(rapier);
     (theirs - right.inertia).amax() / right.inertia.amax()
+}
+
+/// The inertia tensor that rapier's mass properties stand for, body axes, kg·m².
+pub(super) fn inertia(rapier: &MassProperties) -> Matrix3<f64> {
+    of_mass_properties(rapier, &Pose::IDENTITY).inertia
 }
 
 fn scaled(mass: &DryMass, to: f64) -> DryMass {

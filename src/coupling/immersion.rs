@@ -19,9 +19,9 @@ use std::sync::Arc;
 ///
 /// # What it does to a body
 /// From the step after its insertion until it is removed or disabled, an immersed body
-/// * has its density moved from its colliders to its additional mass properties, where the fluid's
-///   share of the rotational inertia (and, near contacts, of the mass) is added: `collider.mass()`
-///   then reads 0;
+/// * has all its mass properties moved to its first collider, with the fluid's share of the
+///   rotational inertia (and, near contacts, of the mass) added: other colliders then read
+///   `mass() == 0`;
 /// * may rotate by more than 45° per step, and has rapier's gyroscopic forces off (the crate
 ///   integrates them);
 /// * does not fall asleep unless it touches something;
@@ -115,6 +115,8 @@ pub(super) struct FlightState {
     pub solver_mass: Real,
     /// Velocity of the fluid in the last step, m/s.
     pub stream: Vector,
+    /// Whether rapier could not be given the right inertia tensor: torques are converted then.
+    pub odd_inertia: bool,
     /// Whether all this is from the step before.
     pub flying: bool,
 }
@@ -142,6 +144,15 @@ pub enum Warning {
         /// Largest error of an entry over the largest entry.
         relative_error: f64,
     },
+    /// Rapier's inertia tensor is wrong while the body is immersed, too: it has several colliders,
+    /// away from the body's origin, and is small. Free flight is right all the same; contacts turn
+    /// it wrongly. One compound collider instead of several avoids it.
+    OddInertia {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Largest error of an entry over the largest entry.
+        relative_error: f64,
+    },
 }
 
 impl std::fmt::Display for Warning {
@@ -154,6 +165,15 @@ impl std::fmt::Display for Warning {
             } => write!(
                 f,
                 "rapier's own inertia tensor of {body:?} is wrong by {:.0} %; corrected while immersed",
+                relative_error * 100.0
+            ),
+            Self::OddInertia {
+                body,
+                relative_error,
+            } => write!(
+                f,
+                "rapier makes an inertia tensor that is wrong by {:.0} % of the colliders of {body:?}, \
+                 which shows in contacts; use one compound collider",
                 relative_error * 100.0
             ),
         }

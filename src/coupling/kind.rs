@@ -190,14 +190,31 @@ impl Kind {
     }
 
     /// What rapier is given: the scalar mass it can use, and I + ρA₂₂.
-    pub fn rapier_mass_properties(&self, mass: f64) -> MassProperties {
+    pub fn wet(&self, mass: f64) -> DryMass {
         let dry = &self.constants.dry;
         DryMass {
             mass,
             center: dry.center,
             inertia: dry.inertia + self.constants.added_mass.angular,
         }
-        .to_mass_properties()
+    }
+
+    /// The torque that causes in rapier, whose inertia tensor is `rapier`'s, what `torque` would
+    /// cause with the right one. World axes; `attitude` maps the body's frame to the world.
+    pub fn torque_for(
+        &self,
+        rapier: &MassProperties,
+        attitude: Rotation,
+        torque: Vector,
+    ) -> Vector {
+        let rotation = to_quaternion(attitude);
+        let torque = rotation.inverse() * to_f64(torque);
+        let right = self.wet(1.0).inertia;
+        let acceleration = right
+            .try_inverse()
+            .map_or(torque * 0.0, |inverse| inverse * torque);
+        let theirs = super::from_rapier::inertia(rapier);
+        to_real(rotation * (theirs * acceleration))
     }
 
     /// Velocity change (world axes) of a body whose attitude (body to world) is `attitude` when the

@@ -7,6 +7,7 @@ use rapier3d::dynamics::{
     MassProperties, RigidBodyAdditionalMassProps, RigidBodyHandle, RigidBodySet,
 };
 use rapier3d::geometry::{ColliderHandle, ColliderSet};
+use rapier3d::math::Pose;
 
 /// Mass properties and switches of a rapier body, to be given back.
 #[derive(Clone, Debug)]
@@ -70,7 +71,8 @@ impl Original {
         Ok((original, error))
     }
 
-    /// Gives the body the mass properties of its kind.
+    /// Gives the body the mass properties and switches of its kind. Returns the relative error of
+    /// the inertia that rapier makes of it.
     pub fn immerse(
         &self,
         kind: &Kind,
@@ -78,17 +80,49 @@ impl Original {
         handle: RigidBodyHandle,
         bodies: &mut RigidBodySet,
         colliders: &mut ColliderSet,
-    ) {
-        for (handle, _) in &self.colliders {
-            if let Some(collider) = colliders.get_mut(*handle) {
-                collider.set_density(0.0);
-            }
-        }
+    ) -> f64 {
+        self.set_mass(kind, mass, handle, bodies, colliders);
         let body = &mut bodies[handle];
-        body.set_additional_mass_properties(kind.rapier_mass_properties(mass), false);
         body.enable_gyroscopic_forces(false);
         body.set_allow_fast_rotation(true);
         body.recompute_mass_properties_from_colliders(colliders);
+        inertia_error(&body.mass_properties().local_mprops, &kind.wet(mass))
+    }
+
+    /// Gives the body the mass properties of its kind with another scalar mass, kg.
+    ///
+    /// A single collider carries them all; of several, the first. Carrying them as *additional* mass
+    /// properties would send them through the sum with a collider of no mass but with a pose, and so
+    /// through the eigenvalue solver that fails for small bodies (see [`DryMass::of_body`]).
+    pub fn set_mass(
+        &self,
+        kind: &Kind,
+        mass: f64,
+        handle: RigidBodyHandle,
+        bodies: &mut RigidBodySet,
+        colliders: &mut ColliderSet,
+    ) {
+        let properties = kind.wet(mass).to_mass_properties();
+        let mut carried = false;
+        for (handle, _) in &self.colliders {
+            let Some(collider) = colliders.get_mut(*handle) else {
+                continue;
+            };
+            if carried {
+                collider.set_density(0.0);
+            } else {
+                let pose = collider.position_wrt_parent().copied();
+                let pose = pose.unwrap_or(Pose::IDENTITY);
+                collider.set_mass_properties(properties.transform_by(&pose.inverse()));
+                carried = collider.is_enabled();
+            }
+        }
+        let left = if carried {
+            MassProperties::default()
+        } else {
+            properties
+        };
+        bodies[handle].set_additional_mass_properties(left, false);
     }
 
     /// Gives everything back.

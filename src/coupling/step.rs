@@ -143,7 +143,7 @@ impl Immersion {
                 self.sample_flow(flyers, sets, &mut scratch.points, &mut scratch.samples);
                 self.fly_all(flyers, route, &clock);
                 for flyer in flyers {
-                    let borrowed = self.hand_over(flyer, sets.bodies);
+                    let borrowed = self.hand_over(flyer, sets);
                     scratch.borrowed.extend(borrowed);
                 }
             }
@@ -224,11 +224,20 @@ impl Immersion {
         match entered {
             Ok((original, kind)) => {
                 let mass = original.dry.mass;
-                let description = &self.kinds[kind as usize];
                 // After loading a snapshot rapier's body is as the kind wants it already, but
                 // setting it again changes nothing.
-                if fresh.is_some() || !self.loaded(index) {
-                    original.immerse(description, mass, handle, sets.bodies, sets.colliders);
+                let loaded = fresh.is_none() && self.loaded(index);
+                let mut odd = None;
+                if !loaded {
+                    self.newcomers.push(handle);
+                    let error = original.immerse(
+                        &self.kinds[kind as usize],
+                        mass,
+                        handle,
+                        sets.bodies,
+                        sets.colliders,
+                    );
+                    odd = (error > 1e-3).then_some(error);
                 }
                 if let Some(slot) = &mut self.slots[index] {
                     if fresh.is_some() || slot.flight.solver_mass == 0.0 {
@@ -236,9 +245,16 @@ impl Immersion {
                     }
                     slot.kind = kind;
                     slot.original = Some(Box::new(original));
-                    self.newcomers.push(handle);
+                    if !loaded {
+                        slot.flight.odd_inertia = odd.is_some();
+                    }
                 }
-                if let Some(relative_error) = fresh.filter(|error| *error > 0.01) {
+                if let Some(relative_error) = odd {
+                    self.warn(Warning::OddInertia {
+                        body: handle,
+                        relative_error,
+                    });
+                } else if let Some(relative_error) = fresh.filter(|error| *error > 0.01) {
                     self.warn(Warning::WrongInertia {
                         body: handle,
                         relative_error,
@@ -313,7 +329,8 @@ impl Immersion {
         let (Some(slot), Some(body)) = (self.slots[index].as_ref(), sets.bodies.get(handle)) else {
             return;
         };
-        if slot.original.is_none() || slot.kind == NONE || !body.is_dynamic() {
+        if slot.original.is_none() || slot.kind == NONE || !body.is_dynamic() || body.is_sleeping()
+        {
             return;
         }
         let kind = &self.kinds[slot.kind as usize];
@@ -462,8 +479,8 @@ impl Immersion {
     }
 
     /// Writes what the step shall do to one body, and keeps what must be given back.
-    fn hand_over(&mut self, flyer: &Flyer, bodies: &mut RigidBodySet) -> Option<Borrowed> {
-        let body = bodies.get_mut(flyer.handle)?;
+    fn hand_over(&mut self, flyer: &Flyer, sets: &mut RapierSets) -> Option<Borrowed> {
+        let body = sets.bodies.get_mut(flyer.handle)?;
         let [force, torque, start_linear, start_angular] = [
             flyer.push,
             flyer.twist,
@@ -474,6 +491,14 @@ impl Immersion {
         if !(force + torque + start_linear + start_angular).is_finite() {
             return None;
         }
+        let slot = self.slots[flyer.slot as usize].as_mut()?;
+        let kind = &self.kinds[flyer.kind as usize];
+        let torque = if slot.flight.odd_inertia {
+            let rapier = &body.mass_properties().local_mprops;
+            kind.torque_for(rapier, *body.rotation(), torque)
+        } else {
+            torque
+        };
         let borrowed = Borrowed {
             handle: flyer.handle,
             slot: flyer.slot,
@@ -493,11 +518,11 @@ impl Immersion {
             // Drifting slowly through water is not resting.
             body.activation_mut().time_since_can_sleep = 0.0;
         }
-        let slot = self.slots[flyer.slot as usize].as_mut()?;
-        if flyer.new_mass {
-            let kind = &self.kinds[flyer.kind as usize];
-            let properties = kind.rapier_mass_properties(flyer.solver_mass.into());
-            body.set_additional_mass_properties(properties, false);
+        if flyer.new_mass
+            && let Some(original) = &slot.original
+        {
+            let mass = flyer.solver_mass.into();
+            original.set_mass(kind, mass, flyer.handle, sets.bodies, sets.colliders);
             slot.flight.solver_mass = flyer.solver_mass;
         }
         slot.flight.attitude = flyer.attitude;

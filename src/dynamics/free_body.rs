@@ -110,7 +110,7 @@ impl FreeBody {
 
     /// Advances by `dt` in a fluid that moves uniformly with `flow` during the step.
     pub fn step_in(&mut self, dt: f64, gravity: Vector3<f64>, flow: &FlowSample) {
-        if !(dt > 0.0) {
+        if dt.is_nan() || dt <= 0.0 {
             return;
         }
         let c = &self.constants;

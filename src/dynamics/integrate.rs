@@ -16,6 +16,22 @@
 //! exactly together with it.
 //!
 //! One force evaluation and one 6×6 solve per substep; second order.
+//!
+//! # Designs compared
+//!
+//! Error of the position after half a second, relative to the path, at 60, 240 and 960 substeps per
+//! second (test `dynamics::designs`, which also flies each design):
+//!
+//! | design | evaluations | leaf in air | steel plate in water | foam plate in water |
+//! |---|---|---|---|---|
+//! | **linearly implicit midpoint** | 1 | 3e-2, 4e-3, 3e-4 | 4e-2, 3e-3, 2e-4 | .16, .05, 3e-3 |
+//! | the same, N frozen twice | 2 | 1e-2, 5e-4, 2e-5 | 9e-3, 5e-4, 3e-5 | .16, .02, 3e-3 |
+//! | linearly implicit Euler | 1 | .17, .07, .03 | .63, .18, .04 | .07, .02, .01 |
+//! | Runge–Kutta 4 | 4 | 2e-4, 3e-7, 4e-9 | 5e-4, 4e-5, 1e-5 | blows up, blows up, 4e-3 |
+//!
+//! Runge–Kutta is the most accurate where it is stable, but it is not where a light body drags a
+//! heavy fluid along; implicit Euler is stable but damps flutter away. The midpoint scheme is stable
+//! everywhere and, at the default of a fifth of a chord per substep, within a few percent.
 
 use super::kirchhoff::{Twist, cross};
 use crate::body::InertiaConstants;

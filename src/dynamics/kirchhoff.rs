@@ -326,7 +326,7 @@ impl<T: Scalar> InertiaConstants<T> {
     /// `v` is the velocity at which it is frozen. The inertial part is skew-symmetric for any
     /// `v`; of the added mass' share in it only the fraction `munk` is kept.
     #[inline(always)]
-    fn coupling_matrix(
+    pub(super) fn coupling_matrix(
         &self,
         mass: &Blocks<T>,
         terms: &ViscousTerms<T>,

@@ -1,5 +1,7 @@
 //! Equations of motion of one body, and their integrator.
 
+#[cfg(test)]
+mod designs;
 pub mod free_body;
 pub(crate) mod integrate;
 pub(crate) mod kirchhoff;

@@ -41,22 +41,7 @@ impl Surface {
     /// [`Error::OpenMesh`] (naming an edge that does not have one triangle on each side) or
     /// [`Error::NoVolume`].
     pub fn new(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> Result<Self, Error> {
-        if let Some(index) = vertices
-            .iter()
-            .position(|v| !v.iter().all(|x| x.is_finite()))
-        {
-            return Err(Error::NonFiniteVertex { index });
-        }
-        if let Some(index) = triangles
-            .iter()
-            .flatten()
-            .find(|i| **i as usize >= vertices.len())
-        {
-            return Err(Error::IndexOutOfRange {
-                index: *index,
-                vertices: vertices.len(),
-            });
-        }
+        super::quality::check_indices(vertices, triangles)?;
         let (vertices, triangles) = weld(vertices, triangles);
         if triangles.is_empty() {
             return Err(Error::EmptyMesh);

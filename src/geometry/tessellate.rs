@@ -58,15 +58,8 @@ impl Surface {
             TypedShape::TriMesh(s) => from_mesh((s.vertices().to_vec(), s.indices().to_vec())),
             TypedShape::Voxels(s) => from_mesh(s.to_trimesh()),
             TypedShape::Compound(s) => {
-                let mut whole: Option<Self> = None;
-                for (pose, part) in s.shapes() {
-                    let part = Self::from_shape(part.as_ref())?.posed(pose);
-                    match &mut whole {
-                        Some(whole) => whole.append(&part),
-                        None => whole = Some(part),
-                    }
-                }
-                whole.ok_or(Error::EmptyMesh)
+                let parts: Vec<_> = s.shapes().iter().map(|(p, s)| (*p, s.as_ref())).collect();
+                Self::of_parts(&parts, Self::from_shape)
             }
             TypedShape::RoundCuboid(s) => {
                 let (vertices, _) = s.inner_shape.to_trimesh();
@@ -91,6 +84,22 @@ impl Surface {
             TypedShape::Triangle(_) => none("triangle"),
             TypedShape::Custom(_) => none("custom shape"),
         }
+    }
+
+    /// The surfaces that `mesh` makes of several shapes, each moved by its pose, as one.
+    pub(crate) fn of_parts(
+        parts: &[(Pose, &dyn Shape)],
+        mesh: impl Fn(&dyn Shape) -> Result<Self, Error>,
+    ) -> Result<Self, Error> {
+        let mut whole: Option<Self> = None;
+        for (pose, part) in parts {
+            let part = mesh(*part)?.posed(pose);
+            match &mut whole {
+                Some(whole) => whole.append(&part),
+                None => whole = Some(part),
+            }
+        }
+        whole.ok_or(Error::EmptyMesh)
     }
 
     /// The surface moved by a rapier pose.

@@ -46,16 +46,18 @@ impl HydroProperties {
     /// Properties of a closed surface, referred to `reference`, with the added mass of the proxy
     /// ellipsoid.
     ///
-    /// How good that proxy is (added mass of the proxy over that of the shape, broadside /
-    /// edgewise or axial): ellipsoids and discs exact; square plate 1.05 / –, 1:2 plate 1.04 / –,
-    /// cube 0.59; rotation of a square plate about a diameter 1.01.
+    /// How good that proxy is: see [`Accuracy`](super::Accuracy).
     pub fn from_surface(surface: &Surface, reference: Vector3<f64>) -> Self {
         let integrals = surface.volume_integrals();
         let axes = principal_axes(surface, &integrals.second_moment);
+        let planform = Planform::new(surface, &integrals, axes);
+        // Where parts touch or overlap, faces that no fluid sees show too: a shadow is never larger
+        // than that of the box.
+        let [x, y, z]: [f64; 3] = planform.half_extents.into();
+        let boxed = Vector3::new(y * z, z * x, x * y) * 4.0;
         let shadows =
             Vector3::from_fn(|i, _| surface.projected_area(axes.matrix().column(i).into()));
-        let proxy = ellipsoid_with_shadows(shadows);
-        let planform = Planform::new(surface, &integrals, axes);
+        let proxy = ellipsoid_with_shadows(shadows.inf(&boxed));
         let added_mass = proxy
             .added_mass()
             .rotated(&axes)

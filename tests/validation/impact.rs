@@ -20,7 +20,7 @@ fn oblique_impact_with_added_mass_twenty_times_the_mass() {
         let added = f64::from(Fluid::WATER.density()) * hydro.added_mass.linear[(2, 2)];
         let mass = added / 20.0;
         let (plate, _) = world.insert(
-            RigidBodyBuilder::dynamic().position(Pose::from_parts(Vector::ZERO, attitude)),
+            RigidBodyBuilder::dynamic().pose(Pose::from_parts(Vector::ZERO, attitude)),
             ColliderBuilder::new(shape)
                 .mass(mass as Real)
                 .friction(0.0)

@@ -1,0 +1,107 @@
+//! Costs of reduced models: one point, a grid of initial values against solving each (thesis
+//! Fig. 6.7b), and what baking takes.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
+use rapier3d::na::DVector;
+use rapier3d_immersed::reduced::axis::Axis;
+use rapier3d_immersed::reduced::canonical::Canonical;
+use rapier3d_immersed::reduced::evolution::{Coupling, EvolutionParams, evolve};
+use rapier3d_immersed::reduced::example_systems::coupled_triple;
+use rapier3d_immersed::reduced::pgd::PgdParams;
+use rapier3d_immersed::reduced::separated::Separated;
+use std::hint::black_box;
+
+/// The size the thesis states in §6.2.1: 15 modes, 6 dimensions, 300 nodes each.
+fn thesis_size(degree: usize) -> Separated {
+    let axis = Axis::elements(0.0, 1.0, 299 / degree, degree).unwrap();
+    let mut tensor = Canonical::zeros(&[axis.len(); 6]);
+    for mode in 0..15 {
+        let factor = |j: usize| axis.sample(|x| 1.0 + 0.1 * ((mode + j) as f64 * x).sin());
+        let factors: Vec<DVector<f64>> = (0..6).map(factor).collect();
+        tensor.push(1.0 / (1.0 + mode as f64), &factors).unwrap();
+    }
+    Separated::new(1, vec![axis; 6], &tensor).unwrap()
+}
+
+fn one_point(criterion: &mut Criterion) {
+    let points: Vec<[f64; 6]> = (0..1000)
+        .map(|i| [1.0, 2.0, 3.0, 5.0, 7.0, 11.0].map(|p: f64| (i as f64 * p.sqrt()).fract()))
+        .collect();
+    for degree in [1, 3] {
+        let separated = thesis_size(degree);
+        let mut evaluator = separated.evaluator();
+        let mut next = 0;
+        let mut value = [0.0];
+        criterion.bench_function(
+            &format!("one point, 15 modes, 6 dimensions, degree {degree}"),
+            |b| {
+                b.iter(|| {
+                    next = (next + 1) % points.len();
+                    evaluator.evaluate(black_box(&points[next]), &mut value);
+                    value[0]
+                })
+            },
+        );
+    }
+}
+
+/// Thesis (6.22) written out, so that the reference pays nothing for the generality of a system.
+struct CoupledTriple;
+
+impl ODE<f64, [f64; 3]> for CoupledTriple {
+    fn diff(&self, _: f64, u: &[f64; 3], rate: &mut [f64; 3]) {
+        *rate = [1.0 - u[1] * u[2], 2.0 - u[0] * u[2], 3.0 - u[0] * u[1]];
+    }
+}
+
+fn grid_of_initial_values(criterion: &mut Criterion) {
+    let system = coupled_triple(&Axis::spectral(0.0, 1.0, 9).unwrap());
+    let time = Axis::time(0.0, 0.5, 3, 4).unwrap();
+    let params = EvolutionParams {
+        pgd: PgdParams {
+            max_modes: 12,
+            tolerance: 1e-7,
+            ..PgdParams::default()
+        },
+        coupling: Coupling::Decoupled,
+        ..EvolutionParams::default()
+    };
+    criterion.bench_function("bake thesis (6.22), 12 enrichments", |b| {
+        b.iter(|| evolve(&system, &time, &params, |_, _| ()).unwrap())
+    });
+    let (solution, _) = evolve(&system, &time, &params, |_, _| ()).unwrap();
+    let values: Vec<f64> = (0..20).map(|i| i as f64 / 19.0).collect();
+    let times: Vec<f64> = (1..=20).map(|i| i as f64 / 40.0).collect();
+    criterion.bench_function("20³ initial values, final state", |b| {
+        b.iter(|| solution.grid(&[&[0.5], &values, &values, &values]))
+    });
+    criterion.bench_function("20³ initial values, 20 times", |b| {
+        b.iter(|| solution.grid(&[&times, &values, &values, &values]))
+    });
+    criterion.bench_function("20³ initial values, DOP853 at 1e-4", |b| {
+        b.iter(|| {
+            let mut sum = 0.0;
+            for x in &values {
+                for y in &values {
+                    for z in &values {
+                        let start = [*x, *y, *z];
+                        let solved = IVP::ode(&CoupledTriple, 0.0, 0.5, start)
+                            .method(ExplicitRungeKutta::dop853().rtol(1e-4).atol(1e-4))
+                            .solve()
+                            .unwrap();
+                        sum += solved.y.last().unwrap()[0];
+                    }
+                }
+            }
+            sum
+        })
+    });
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(20);
+    targets = one_point, grid_of_initial_values
+}
+criterion_main!(benches);

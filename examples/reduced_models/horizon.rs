@@ -1,0 +1,276 @@
+//! Three ways to separate a falling plate over (C_T, C_R, A, density ratio, release angle): the
+//! trajectory, the flow map over a short time, the rates. Error against horizon, off the grid.
+
+use crate::Outcome;
+use crate::chart::{COLORS, Mark, Panel, SeriesLabelPosition, draw};
+use indicatif::ProgressBar;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rapier3d_immersed::reduced::axis::Axis;
+use rapier3d_immersed::reduced::cross::{CrossParams, cross};
+use rapier3d_immersed::reduced::dormand_prince::{Accuracy, integrate};
+use rapier3d_immersed::reduced::falling_plate::FallingPlate;
+use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
+use std::error::Error;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::path::Path;
+use std::time::Instant;
+
+const ACCURACY: Accuracy = Accuracy {
+    relative: 1e-8,
+    absolute: 1e-8,
+    max_steps: 100_000,
+};
+const HORIZONS: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
+const STEP: f64 = 0.25;
+
+/// Horizon and error.
+type Errors = Vec<(f64, f64)>;
+
+fn plate(p: &[f64]) -> FallingPlate {
+    FallingPlate::with_coefficients(p[3], [p[0], p[1], p[2], 1.0, 0.2])
+}
+
+fn start(angle: f64) -> [f64; 6] {
+    [1e-3, 1e-3, 1e-3, angle, 0.0, 0.0]
+}
+
+/// Coefficients ± 5 %, and I* over the range.
+fn parameters((low, high): (f64, f64), nodes: usize) -> Result<Vec<Axis>, Box<dyn Error>> {
+    let around = |x: f64| Axis::spectral(0.95 * x, 1.05 * x, nodes);
+    Ok(vec![
+        around(1.2)?,
+        around(PI)?,
+        around(1.4)?,
+        Axis::spectral(low, high, nodes)?,
+    ])
+}
+
+fn release_angle() -> Result<Axis, Box<dyn Error>> {
+    Ok(Axis::spectral(0.5, 1.0, 9)?)
+}
+
+/// The axes of (u, v, ω, θ): kinks of |ω|ω and at rest fall on the ends of elements.
+fn state() -> Result<Vec<Axis>, Box<dyn Error>> {
+    Ok(vec![
+        Axis::elements(-2.5, 2.5, 2, 5)?,
+        Axis::elements(-1.6, 1.6, 2, 5)?,
+        Axis::elements(-1.6, 1.6, 2, 5)?,
+        Axis::spectral(-FRAC_PI_2, FRAC_PI_2, 10)?,
+    ])
+}
+
+/// Half turns of the body axes change the signs of u and v alone: the equal state with θ within
+/// (−π/2, π/2), and the sign.
+fn reduced(x: &[f64]) -> ([f64; 4], f64) {
+    let turns = (x[3] / PI).round();
+    let sign = if turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
+    ([sign * x[0], sign * x[1], x[2], x[3] - turns * PI], sign)
+}
+
+/// Samples of the domain and their true horizontal positions at the horizons.
+struct Truth {
+    points: Vec<Vec<f64>>,
+    positions: Vec<Vec<f64>>,
+}
+
+impl Truth {
+    fn new(range: (f64, f64)) -> Result<Self, Box<dyn Error>> {
+        let mut random = Pcg64::seed_from_u64(7);
+        let mut axes = parameters(range, 2)?;
+        axes.push(release_angle()?);
+        let mut point = || {
+            axes.iter()
+                .map(|a| random.random_range(a.start()..a.end()))
+                .collect()
+        };
+        let points: Vec<Vec<f64>> = (0..150).map(|_| point()).collect();
+        let positions = points.iter().map(|p| {
+            let states = plate(p).trajectory(&start(p[4]), &HORIZONS, ACCURACY);
+            states.iter().map(|s| s[4]).collect()
+        });
+        Ok(Self {
+            positions: positions.collect(),
+            points,
+        })
+    }
+
+    /// Error at each horizon relative to the standard deviation of the position over the domain.
+    fn errors(&self, mut positions: impl FnMut(&[f64]) -> Vec<f64>) -> Errors {
+        let all: Vec<Vec<f64>> = self.points.iter().map(|p| positions(p)).collect();
+        let error = |(h, horizon): (usize, &f64)| {
+            let exact: Vec<f64> = self.positions.iter().map(|p| p[h]).collect();
+            let mean = exact.iter().sum::<f64>() / exact.len() as f64;
+            let spread: f64 = exact.iter().map(|x| (x - mean).powi(2)).sum();
+            let squares: f64 = exact
+                .iter()
+                .zip(&all)
+                .map(|(x, p)| (p[h] - x).powi(2))
+                .sum();
+            (*horizon, (squares / spread).sqrt())
+        };
+        HORIZONS.iter().enumerate().map(error).collect()
+    }
+}
+
+/// One surrogate of whole trajectories per horizon, each with the same budget.
+fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
+    let mut errors = Vec::new();
+    for (h, end) in HORIZONS.into_iter().enumerate() {
+        let time = Axis::elements(0.0, end, (end / 2.0).ceil() as usize, 6)?;
+        let mut axes = parameters(range, 9)?;
+        axes.push(release_angle()?);
+        let model = |p: &[f64], times: &[f64], out: &mut [f64]| {
+            let states = plate(p).trajectory(&start(p[4]), times, ACCURACY);
+            out.iter_mut()
+                .zip(states)
+                .for_each(|(out, state)| *out = state[4]);
+        };
+        let params = CrossParams {
+            tolerance: 1e-7,
+            max_evaluations: 15_000,
+            ..CrossParams::default()
+        };
+        let (surrogate, _) = TrajectorySurrogate::bake(time, 1, axes, model, &params)?;
+        let all = truth.errors(|p| surrogate.evaluate(p, &HORIZONS));
+        errors.push(all[h]);
+    }
+    Ok(errors)
+}
+
+/// The errors, and the microseconds of a step.
+fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Errors, f64), Box<dyn Error>> {
+    let model = |s: &[f64], p: &[f64], change: &mut [f64]| {
+        let mut end = [s[0], s[1], s[2], s[3], 0.0, 0.0];
+        plate(p).advance(&mut end, STEP, ACCURACY);
+        for k in 0..4 {
+            change[k] = end[k] - s[k];
+        }
+        change[4] = end[4];
+    };
+    let params = CrossParams {
+        tolerance: 1e-5,
+        max_evaluations: 300_000,
+        rank_growth: 3,
+        max_rank: 60,
+        ..CrossParams::default()
+    };
+    let (map, _) = FlowMap::bake(STEP, state()?, parameters(range, 4)?, 1, model, &params)?;
+    let mut scratch = Vec::new();
+    let (mut steps, clock) = (0, Instant::now());
+    let errors = truth.errors(|p| {
+        let mut x = start(p[4]);
+        let mut change = [0.0; 5];
+        let mut positions = Vec::new();
+        for i in 1..=(HORIZONS[5] / STEP) as usize {
+            let (inside, sign) = reduced(&x);
+            map.change(&inside, &p[..4], &mut change, &mut scratch);
+            for (k, sign) in [sign, sign, 1.0, 1.0, 1.0].into_iter().enumerate() {
+                x[k] += sign * change[k];
+            }
+            steps += 1;
+            if HORIZONS.iter().any(|h| (h - i as f64 * STEP).abs() < 1e-9) {
+                positions.push(x[4]);
+            }
+        }
+        positions
+    });
+    Ok((
+        errors,
+        clock.elapsed().as_secs_f64() * 1e6 / f64::from(steps),
+    ))
+}
+
+/// The rates themselves as a tensor train, integrated as they are.
+fn rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
+    let model = |x: &[f64], out: &mut [f64]| {
+        let mut rate = [0.0; 6];
+        plate(&x[4..]).rate(&[x[0], x[1], x[2], x[3], 0.0, 0.0], &mut rate);
+        out.copy_from_slice(&rate[..5]);
+    };
+    let params = CrossParams {
+        tolerance: 1e-5,
+        max_evaluations: 300_000,
+        rank_growth: 3,
+        max_rank: 60,
+        ..CrossParams::default()
+    };
+    let axes = [state()?, parameters(range, 4)?].concat();
+    let (train, _) = cross(axes, 5, model, &params)?;
+    let train = train.rounded(1e-6);
+    let loose = Accuracy {
+        relative: 1e-5,
+        absolute: 1e-5,
+        max_steps: 20_000,
+    };
+    let mut scratch = Vec::new();
+    Ok(truth.errors(|p| {
+        let mut x = [0.0; 5];
+        x[..4].copy_from_slice(&start(p[4])[..4]);
+        let mut now = 0.0;
+        let mut rate = |_: f64, x: &[f64], out: &mut [f64]| {
+            let (inside, sign) = reduced(x);
+            let point = [&inside[..], &p[..4]].concat();
+            train.evaluate_into(&point, out, &mut scratch);
+            out[0] *= sign;
+            out[1] *= sign;
+        };
+        let mut positions = Vec::new();
+        for horizon in HORIZONS {
+            integrate(&mut rate, now, horizon, &mut x, loose);
+            now = horizon;
+            positions.push(x[4]);
+        }
+        positions
+    }))
+}
+
+pub fn horizon(path: &Path, bar: &ProgressBar) -> Outcome {
+    let mut panels = Vec::new();
+    let mut numbers = serde_json::Map::new();
+    for (name, range) in [
+        ("flutter, I* .45 to .55", (0.45, 0.55)),
+        ("across the transition, I* 1.1 to 1.4", (1.1, 1.4)),
+    ] {
+        let truth = Truth::new(range)?;
+        bar.set_message(format!("{name}: trajectories"));
+        let trajectories = trajectories(range, &truth)?;
+        bar.set_message(format!("{name}: flow map"));
+        let (flow_map, microseconds) = flow_map(range, &truth)?;
+        bar.set_message(format!("{name}: rates"));
+        let rates = rates(range, &truth)?;
+        numbers.insert(
+            name.into(),
+            serde_json::json!({ "trajectories": trajectories, "flow_map": flow_map, "rates": rates,
+                "flow_map_microseconds_per_step": microseconds }),
+        );
+        let mut panel = Panel::new(
+            name,
+            "horizon T",
+            "error of x(T) / its spread over the domain",
+        );
+        (panel.log_x, panel.log_y) = (true, true);
+        panel.add(
+            "separated trajectory",
+            COLORS[0],
+            Mark::LineAndDots,
+            trajectories,
+        );
+        panel.add(
+            "separated flow map, iterated",
+            COLORS[1],
+            Mark::LineAndDots,
+            flow_map,
+        );
+        panel.add(
+            "separated rates, integrated",
+            COLORS[2],
+            Mark::LineAndDots,
+            rates,
+        );
+        panel.legend = Some(SeriesLabelPosition::LowerRight);
+        panels.push(panel);
+    }
+    draw(path, 2, &panels)?;
+    Ok(numbers.into())
+}

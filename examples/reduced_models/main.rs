@@ -1,0 +1,87 @@
+//! Draws the examples of thesis §6.4 (its Figs. 6.2 to 6.8) and what separated surrogates of a
+//! falling plate are worth, error against horizon.
+
+mod chart;
+mod horizon;
+mod thesis;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Bake and draw reduced models.
+#[derive(Parser)]
+struct Arguments {
+    /// Directory for the pictures.
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+    /// Draw only these: linear, falling, coupled, kirchhoff, horizon.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "linear,falling,coupled,kirchhoff,horizon"
+    )]
+    only: Vec<String>,
+    /// Print the numbers behind the pictures as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+type Outcome = Result<serde_json::Value, Box<dyn Error>>;
+type Figure = fn(&Path, &ProgressBar) -> Outcome;
+
+const FIGURES: [(&str, Figure); 5] = [
+    ("linear", thesis::linear_problem),
+    ("falling", thesis::falling),
+    ("coupled", thesis::coupled),
+    ("kirchhoff", thesis::kirchhoff),
+    ("horizon", horizon::horizon),
+];
+
+fn run(arguments: &Arguments) -> Result<(), String> {
+    if let Some(name) = arguments
+        .only
+        .iter()
+        .find(|name| !FIGURES.iter().any(|(known, _)| known == name))
+    {
+        return Err(format!("--only: there is no figure '{name}'"));
+    }
+    std::fs::create_dir_all(&arguments.out)
+        .map_err(|e| format!("--out: {}: {e}", arguments.out.display()))?;
+    let chosen: Vec<_> = FIGURES
+        .iter()
+        .filter(|(name, _)| arguments.only.iter().any(|o| o == name))
+        .collect();
+    let style = ProgressStyle::with_template("{elapsed_precise} [{bar:30}] {pos}/{len} {msg}")
+        .map_err(|e| e.to_string())?;
+    let bar = ProgressBar::new(chosen.len() as u64).with_style(style);
+    let mut numbers = serde_json::Map::new();
+    for (name, figure) in chosen {
+        bar.set_message((*name).to_string());
+        let path = arguments.out.join(format!("{name}.svg"));
+        let values = figure(&path, &bar).map_err(|e| format!("{}: {e}", path.display()))?;
+        numbers.insert((*name).to_string(), values);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    if arguments.json {
+        println!("{:#}", serde_json::Value::Object(numbers));
+    } else {
+        for (name, values) in &numbers {
+            println!("{name}: {values}");
+        }
+    }
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::from(2)
+        }
+    }
+}

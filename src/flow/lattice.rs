@@ -1,0 +1,214 @@
+//! Trilinear interpolation on a regular lattice, clamped or periodic along each axis.
+
+use crate::Error;
+use rapier3d::glamx::{BVec4A, Vec4};
+use rapier3d::math::{Real, Vector};
+
+/// Most nodes along one axis, so that products of three fit comfortably into `u64`.
+pub(crate) const MAX_NODES: u64 = 1 << 16;
+
+/// Where the nodes are. Node (i, j, k) is at `origin + (i, j, k)·spacing`.
+///
+/// Node values are stored [padded](Lattice::pad): every periodic or one-node axis has its first node once more
+/// at its end, so that the nodes of a cell are always neighbors in memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lattice {
+    pub dims: [usize; 3],
+    pub periodic: [bool; 3],
+    pub origin: Vector,
+    pub spacing: Vector,
+    stored: [usize; 3],
+    lanes: Lanes,
+}
+
+/// The same as four-lane constants, so that the three axes are bracketed at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lanes {
+    origin: Vec4,
+    per_spacing: Vec4,
+    nodes: Vec4,
+    per_node: Vec4,
+    periodic: BVec4A,
+    /// Largest position and largest node below a cell.
+    end: Vec4,
+    last: Vec4,
+}
+
+/// The cell around a point: the first nodes of its four rows and the position inside.
+pub(crate) struct Cell {
+    rows: [usize; 4],
+    weight: Vec4,
+    flat: bool,
+}
+
+/// A value and its derivatives along the axes.
+pub(crate) struct Jet {
+    pub value: Vec4,
+    pub dx: Vec4,
+    pub dy: Vec4,
+    pub dz: Vec4,
+}
+
+/// `x` modulo `period`, several times faster than `rem_euclid` (which divides bit by bit).
+#[inline(always)]
+pub(crate) fn wrap(x: f64, period: f64) -> f64 {
+    x - (x / period).floor() * period
+}
+
+#[inline(always)]
+fn lerp(a: Vec4, b: Vec4, weight: Real) -> Vec4 {
+    a + (b - a) * weight
+}
+
+impl Lattice {
+    pub fn new(
+        dims: [usize; 3],
+        periodic: [bool; 3],
+        origin: Vector,
+        spacing: Vector,
+    ) -> Result<Self, Error> {
+        for (n, h) in dims.into_iter().zip(spacing.to_array()) {
+            Error::check(
+                "nodes",
+                n as f64,
+                n > 0 && n as u64 <= MAX_NODES,
+                "from 1 to 65536 along each axis",
+            )?;
+            Error::check_positive("spacing", h.into())?;
+            Error::check_positive("1/spacing", (1.0 / h).into())?;
+        }
+        for x in origin.to_array() {
+            Error::check_finite("origin", x.into())?;
+        }
+        let wraps: [bool; 3] = core::array::from_fn(|i| periodic[i] || dims[i] == 1);
+        let stored: [usize; 3] = core::array::from_fn(|i| dims[i] + usize::from(wraps[i]));
+        let lanes = |value: &dyn Fn(usize) -> usize| {
+            Vec4::new(value(0) as Real, value(1) as Real, value(2) as Real, 1.0)
+        };
+        let nodes = lanes(&|i| dims[i]);
+        Ok(Self {
+            dims,
+            periodic,
+            origin,
+            spacing,
+            stored,
+            lanes: Lanes {
+                origin: origin.extend(0.0),
+                per_spacing: spacing.recip().extend(0.0),
+                nodes,
+                per_node: nodes.recip(),
+                periodic: BVec4A::new(wraps[0], wraps[1], wraps[2], true),
+                end: lanes(&|i| stored[i] - 1),
+                last: lanes(&|i| stored[i] - 2),
+            },
+        })
+    }
+
+    pub fn len(&self) -> usize {
+        self.dims.iter().product()
+    }
+
+    /// Nodes as they are stored, from nodes with x fastest.
+    pub fn pad<T>(&self, node: impl Fn(usize) -> T) -> Vec<T> {
+        let [nx, ny, nz] = self.dims;
+        let [sx, sy, sz] = self.stored;
+        let mut nodes = Vec::with_capacity(sx * sy * sz);
+        for k in 0..sz {
+            for j in 0..sy {
+                let row = (k % nz * ny + j % ny) * nx;
+                nodes.extend((0..sx).map(|i| node(row + i % nx)));
+            }
+        }
+        nodes
+    }
+
+    /// The stored nodes without padding, x fastest.
+    pub fn unpad<'a, T>(&self, nodes: &'a [T]) -> impl Iterator<Item = &'a T> + use<'a, T> {
+        let ([nx, ny, nz], [sx, sy, _]) = (self.dims, self.stored);
+        (0..nz)
+            .flat_map(move |k| (0..ny).flat_map(move |j| nodes[(k * sy + j) * sx..][..nx].iter()))
+    }
+
+    /// The cell around a point (the fourth lane is ignored). Its nodes are never out of bounds, and
+    /// its weights never NaN, whatever the point is.
+    #[inline(always)]
+    pub fn locate(&self, point: Vec4) -> Cell {
+        let lanes = &self.lanes;
+        let x = (point - lanes.origin) * lanes.per_spacing;
+        let turns = x * lanes.per_node;
+        let wrapped = (turns - turns.floor()) * lanes.nodes;
+        let x = Vec4::select(lanes.periodic, wrapped, x).clamp(Vec4::ZERO, lanes.end);
+        let below = x.floor().min(lanes.last);
+        let weight = (x - below).max(Vec4::ZERO);
+        let [i, j, k, _] = below.to_array().map(|x| x as i32 as usize);
+        let [sx, sy, _] = self.stored;
+        let low = (k * sy + j) * sx + i;
+        let high = low + sy * sx;
+        Cell {
+            rows: [low, low + sx, high, high + sx],
+            weight,
+            flat: self.dims[2] == 1,
+        }
+    }
+
+    /// Value inside `cell` of `nodes`, each seen through `at`.
+    #[inline(always)]
+    pub fn value<T>(&self, cell: &Cell, nodes: &[T], at: impl Fn(&T) -> Vec4) -> Vec4 {
+        let w = cell.weight;
+        let line = |row: usize| {
+            let pair = &nodes[row..row + 2];
+            lerp(at(&pair[0]), at(&pair[1]), w.x)
+        };
+        let [a, b, c, d] = cell.rows;
+        let low = lerp(line(a), line(b), w.y);
+        if cell.flat {
+            low
+        } else {
+            lerp(low, lerp(line(c), line(d), w.y), w.z)
+        }
+    }
+
+    /// Value and gradient inside `cell`; beyond a clamped edge the gradient is the edge cell's.
+    #[inline(always)]
+    pub fn jet<T>(&self, cell: &Cell, nodes: &[T], at: impl Fn(&T) -> Vec4) -> Jet {
+        let w = cell.weight;
+        let line = |row: usize| {
+            let pair = &nodes[row..row + 2];
+            let (a, b) = (at(&pair[0]), at(&pair[1]));
+            (lerp(a, b, w.x), b - a)
+        };
+        let plane = |near: usize, far: usize| {
+            let ((near, near_dx), (far, far_dx)) = (line(near), line(far));
+            (lerp(near, far, w.y), lerp(near_dx, far_dx, w.y), far - near)
+        };
+        let scale = self.lanes.per_spacing;
+        let (low, low_dx, low_dy) = plane(cell.rows[0], cell.rows[1]);
+        if cell.flat {
+            return Jet {
+                value: low,
+                dx: low_dx * scale.x,
+                dy: low_dy * scale.y,
+                dz: Vec4::ZERO,
+            };
+        }
+        let (high, high_dx, high_dy) = plane(cell.rows[2], cell.rows[3]);
+        Jet {
+            value: lerp(low, high, w.z),
+            dx: lerp(low_dx, high_dx, w.z) * scale.x,
+            dy: lerp(low_dy, high_dy, w.z) * scale.y,
+            dz: (high - low) * scale.z,
+        }
+    }
+}
+
+impl Jet {
+    /// Curl of the first three components.
+    #[inline(always)]
+    pub fn curl(&self) -> Vector {
+        Vector::new(
+            self.dy.z - self.dz.y,
+            self.dz.x - self.dx.z,
+            self.dx.y - self.dy.x,
+        )
+    }
+}

@@ -1,0 +1,318 @@
+//! Gusty wind over ground: a log-law mean and a baked turbulent field carried along by it.
+
+use super::lattice::{Lattice, MAX_NODES, wrap};
+use super::{Flow, FlowSample, LogLaw};
+use crate::Error;
+use crate::file::{FileKind, Reader, Writer};
+use rapier3d::glamx::Vec4;
+use rapier3d::math::{Real, Vector};
+use rapier3d::na::ComplexField;
+
+/// How the gusts change with height.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HeightLaw {
+    /// As strong at every height above the reference height, fading like the mean wind below it:
+    /// in the surface layer σ/u* does not depend on height (Kaimal et al. 1972). The default.
+    #[default]
+    SurfaceLayer,
+    /// In proportion to the mean wind at every height: thesis (3.18).
+    Proportional,
+}
+
+/// Wind with gusts of a prescribed spectrum (thesis §3.5), looked up from one periodic field.
+///
+/// Made by `SpectralWind::bake` (feature `bake`) or read from a file.
+///
+/// The field is frozen and carried by the mean wind at the reference height (Taylor's hypothesis).
+/// With an evolution time T it also turns over: two independent fields are mixed as
+/// A cos(2πt/T) + B sin(2πt/T), which never jumps and whose expected variance is the same at every
+/// instant.
+/// A field one node high is a horizontal slice that is used at every height, as the thesis does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpectralWind {
+    pub(super) mean: LogLaw,
+    pub(super) axes: [Vector; 3],
+    to_field: [Vec4; 3],
+    to_world: [Vec4; 3],
+    pub(super) reference_height: Real,
+    pub(super) roughness: Real,
+    pub(super) ground: Real,
+    pub(super) mean_speed: f64,
+    pub(super) evolution_time: f64,
+    pub(super) height_law: HeightLaw,
+    pub(super) lattice: Lattice,
+    /// Fluctuation along the wind, across it and up, m/s, of both fields at each node.
+    pub(super) nodes: Vec<[Vec4; 2]>,
+    /// 1/ln(h₀/z₀), 1/z₀, and the largest strength of the gusts.
+    per_log: Real,
+    per_roughness: Real,
+    cap: Real,
+}
+
+const FILE: FileKind = FileKind {
+    name: "spectral wind",
+    magic: *b"R3IFWIND",
+    version: 1,
+};
+
+/// What is the same for every point at one time.
+struct Instant {
+    carried: Vec4,
+    mix: [Real; 2],
+}
+
+/// The wind's dependence on height.
+#[derive(Default)]
+struct Profile {
+    speed: Real,
+    shear: Real,
+    strength: Real,
+    growth: Real,
+}
+
+impl SpectralWind {
+    /// Assembles the run-time wind; every argument has been checked.
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn assemble(
+        direction: Vector,
+        up: Vector,
+        mean_speed: f64,
+        reference_height: Real,
+        roughness: Real,
+        ground: Real,
+        evolution_time: f64,
+        height_law: HeightLaw,
+        lattice: Lattice,
+        nodes: &[[Vec4; 2]],
+    ) -> Result<Self, Error> {
+        let mean = LogLaw::new(
+            direction,
+            up,
+            mean_speed as Real,
+            reference_height,
+            roughness,
+        )?
+        .with_ground(ground)?;
+        let along = direction.normalize();
+        let up = up.normalize();
+        let axes = [along, up.cross(along), up];
+        let row = |i: usize| Vec4::new(axes[0][i], axes[1][i], axes[2][i], 0.0);
+        Ok(Self {
+            mean,
+            axes,
+            to_field: [row(0), row(1), row(2)],
+            to_world: axes.map(|axis| axis.extend(0.0)),
+            reference_height,
+            roughness,
+            ground,
+            mean_speed,
+            evolution_time,
+            height_law,
+            nodes: lattice.pad(|node| nodes[node]),
+            lattice,
+            per_log: 1.0 / (reference_height / roughness).ln(),
+            per_roughness: 1.0 / roughness,
+            cap: match height_law {
+                HeightLaw::SurfaceLayer => 1.0,
+                HeightLaw::Proportional => Real::INFINITY,
+            },
+        })
+    }
+
+    /// The mean wind under the gusts.
+    pub fn mean(&self) -> &LogLaw {
+        &self.mean
+    }
+
+    /// Nodes of the field along the wind, across it and up.
+    pub fn dims(&self) -> [usize; 3] {
+        self.lattice.dims
+    }
+
+    /// After these lengths (m) along the wind, across it and up the gusts repeat.
+    pub fn period(&self) -> [Real; 3] {
+        core::array::from_fn(|i| self.lattice.dims[i] as Real * self.lattice.spacing[i])
+    }
+
+    /// Fluctuations at the nodes at time 0 at the reference height: along the wind, across it, up, m/s.
+    pub fn fluctuations(&self) -> impl Iterator<Item = Vector> + '_ {
+        self.lattice
+            .unpad(&self.nodes)
+            .map(|node| node[0].truncate())
+    }
+
+    fn instant(&self, time: f64) -> Instant {
+        let period = f64::from(self.lattice.spacing.x) * self.lattice.dims[0] as f64;
+        let way = wrap(self.mean_speed * time, period);
+        let mix = if self.evolution_time.is_finite() {
+            let turns = wrap(time / self.evolution_time, 1.0);
+            let (sin, cos) = (core::f64::consts::TAU * turns).sin_cos();
+            [cos as Real, sin as Real]
+        } else {
+            [1.0, 0.0]
+        };
+        Instant {
+            carried: Vec4::new(way as Real, 0.0, self.ground, 0.0),
+            mix,
+        }
+    }
+
+    /// Mean speed, strength of the gusts relative to the reference height, and growth per meter of
+    /// both, at `height`.
+    #[inline(always)]
+    fn profile(&self, height: Real) -> Profile {
+        if height <= self.roughness {
+            return Profile::default();
+        }
+        let raw = ComplexField::ln(height * self.per_roughness) * self.per_log;
+        let (growth, speed) = (self.per_log / height, self.mean_speed as Real);
+        Profile {
+            speed: speed * raw,
+            shear: speed * growth,
+            strength: raw.min(self.cap),
+            growth: growth * Real::from(u8::from(raw < self.cap)),
+        }
+    }
+
+    /// A point in the field's axes, carried back with the mean wind, height above ground.
+    #[inline(always)]
+    fn to_field(&self, point: Vector, instant: &Instant) -> Vec4 {
+        let [x, y, z] = self.to_field;
+        x * point.x + y * point.y + z * point.z - instant.carried
+    }
+
+    #[inline(always)]
+    fn to_world(&self, vector: Vec4) -> Vector {
+        let [along, across, up] = self.to_world;
+        (along * vector.x + across * vector.y + up * vector.z).truncate()
+    }
+
+    #[inline(always)]
+    fn velocity_at(&self, point: Vector, instant: &Instant) -> Vector {
+        let x = self.to_field(point, instant);
+        let cell = self.lattice.locate(x);
+        let [a, b] = instant.mix;
+        let gust = self
+            .lattice
+            .value(&cell, &self.nodes, |node| node[0] * a + node[1] * b);
+        let profile = self.profile(x.z);
+        self.to_world(gust * profile.strength + Vec4::X * profile.speed)
+    }
+
+    #[inline(always)]
+    fn sample_at(&self, point: Vector, instant: &Instant) -> FlowSample {
+        let x = self.to_field(point, instant);
+        let cell = self.lattice.locate(x);
+        let [a, b] = instant.mix;
+        let jet = self
+            .lattice
+            .jet(&cell, &self.nodes, |node| node[0] * a + node[1] * b);
+        let gust = jet.value;
+        let profile = self.profile(x.z);
+        // curl(strength·gust + U e₁), with ẑ × e₁ = e₂.
+        let curl = jet.curl().extend(0.0) * profile.strength
+            + Vec4::new(-gust.y, gust.x, 0.0, 0.0) * profile.growth
+            + Vec4::new(0.0, profile.shear, 0.0, 0.0);
+        FlowSample {
+            velocity: self.to_world(gust * profile.strength + Vec4::X * profile.speed),
+            vorticity: self.to_world(curl),
+        }
+    }
+
+    /// The file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
+    /// then the dimensions and the height law (`u64`), direction, up, spacing, mean speed, reference
+    /// height, roughness, ground, evolution time or 0 for never (`f64`), six components per node
+    /// (`f32`); all little-endian.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut file = Writer::default();
+        for n in self.lattice.dims {
+            file.u64(n as u64);
+        }
+        file.u64(u64::from(self.height_law == HeightLaw::Proportional));
+        for vector in [self.axes[0], self.axes[2], self.lattice.spacing] {
+            for x in vector.to_array() {
+                file.f64(x.into());
+            }
+        }
+        file.f64(self.mean_speed);
+        file.f64(self.reference_height.into());
+        file.f64(self.roughness.into());
+        file.f64(self.ground.into());
+        let evolves = self.evolution_time.is_finite();
+        file.f64(if evolves { self.evolution_time } else { 0.0 });
+        for node in self.lattice.unpad(&self.nodes) {
+            for x in node.iter().flat_map(|field| field.truncate().to_array()) {
+                file.f32(x);
+            }
+        }
+        file.finish(&FILE)
+    }
+
+    /// Reads what [`SpectralWind::to_bytes`] wrote.
+    ///
+    /// # Errors
+    /// If the bytes are no such file, of another version, truncated, altered, or hold values that
+    /// are out of range.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let mut file = Reader::new(&FILE, bytes)?;
+        let dims = file.lengths("nodes", MAX_NODES)?;
+        let height_law = match file.length("height law", 1)? {
+            0 => HeightLaw::SurfaceLayer,
+            _ => HeightLaw::Proportional,
+        };
+        let (direction, up) = (file.vector("direction")?, file.vector("up")?);
+        let spacing = file.vector("spacing")?;
+        let mean_speed = file.f64("mean_speed")?;
+        let reference_height = file.f64("reference_height")? as Real;
+        let roughness = file.f64("roughness")? as Real;
+        let ground = file.f64("ground")? as Real;
+        let evolution_time = file.f64("evolution_time")?;
+        Error::check_not_negative("evolution_time", evolution_time)?;
+        let count = dims.iter().map(|n| *n as u64).product::<u64>();
+        file.expect_rest(count * 24)?;
+        let lattice = Lattice::new(dims, [true; 3], Vector::ZERO, spacing)?;
+        let mut nodes = Vec::with_capacity(count as usize);
+        for _ in 0..count {
+            let mut node = [Vec4::ZERO; 2];
+            for field in &mut node {
+                for component in 0..3 {
+                    field[component] = file.f32("fluctuation")?;
+                }
+            }
+            nodes.push(node);
+        }
+        Self::assemble(
+            direction,
+            up,
+            mean_speed,
+            reference_height,
+            roughness,
+            ground,
+            if evolution_time > 0.0 {
+                evolution_time
+            } else {
+                f64::INFINITY
+            },
+            height_law,
+            lattice,
+            &nodes,
+        )
+    }
+}
+
+impl Flow for SpectralWind {
+    fn velocity(&self, point: Vector, time: f64) -> Vector {
+        self.velocity_at(point, &self.instant(time))
+    }
+
+    fn vorticity(&self, point: Vector, time: f64) -> Vector {
+        self.sample_at(point, &self.instant(time)).vorticity
+    }
+
+    fn sample(&self, points: &[Vector], time: f64, samples: &mut [FlowSample]) {
+        let instant = self.instant(time);
+        for (point, sample) in points.iter().zip(samples) {
+            *sample = self.sample_at(*point, &instant);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! What the fluid feels of a shape, with its own added mass instead of the proxy's.
+
+use super::shape::cells;
+use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution};
+use crate::Error;
+use crate::geometry::Surface;
+use crate::hydro::{AddedMass, HydroProperties};
+use rapier3d::math::{Pose, Vector};
+use rapier3d::na::Vector3;
+use rapier3d::parry::shape::Shape;
+
+impl HydroProperties {
+    /// The same with the added mass of these shapes together, posed in the frame.
+    pub(crate) fn solved(
+        self,
+        parts: &[(Pose, &dyn Shape)],
+        tolerance: f64,
+    ) -> Result<Self, Error> {
+        let (added_mass, report) = match parts {
+            // Alone in its own axes: there a ball is exact.
+            [(pose, shape)] => {
+                let (own, report) = AddedMass::of_shape(*shape, Vector::ZERO, tolerance)?;
+                let pose = crate::math::isometry(pose);
+                let turned = own.rotated(&pose.rotation.to_rotation_matrix());
+                let offset = self.reference - pose.translation.vector;
+                (turned.about(offset), report)
+            }
+            _ => of_parts(parts, self.reference, tolerance)?,
+        };
+        if !(report.converged && report.definite) {
+            log::warn!(
+                "added mass on {} panels: estimated error {:?} for a tolerance of {tolerance}, \
+                 matrix positive definite: {}",
+                report.panels,
+                report.estimated_error,
+                report.definite,
+            );
+        }
+        // Turning rounds, which must not count as asymmetry.
+        self.with_added_mass(AddedMass::from_matrix6(&added_mass.to_matrix6()))
+    }
+}
+
+fn of_parts(
+    parts: &[(Pose, &dyn Shape)],
+    reference: Vector3<f64>,
+    tolerance: f64,
+) -> Result<(AddedMass, BoundaryElementReport), Error> {
+    let params = BoundaryElementParams {
+        tolerance,
+        ..BoundaryElementParams::default()
+    };
+    let no_progress = &|_| ();
+    let solution = if parts.iter().all(|(_, s)| Surface::follows_cells(*s)) {
+        let mesh = |level| Surface::of_parts(parts, |s| Surface::panelled(s, cells(level)));
+        BoundaryElementSolution::of_meshes(mesh, &params, no_progress)?
+    } else {
+        let surface = Surface::of_parts(parts, Surface::from_shape)?;
+        BoundaryElementSolution::of_surface(&surface, &params, no_progress)?
+    };
+    let about = solution.added_mass.about(reference - solution.center);
+    Ok((about, solution.report))
+}

@@ -1,0 +1,363 @@
+//! Incompressible flow on a staggered (MAC) grid, in two or three dimensions (thesis §4.5, Algorithm 1).
+//!
+//! Velocity components live on the faces of cubic cells (Harlow & Welch 1965), pressure in their
+//! centers. A step is advection along the flow (semi-Lagrangian, Stam 1999; or its second-order
+//! corrections), viscous diffusion, and a projection onto fields without divergence.
+
+mod advection;
+mod array;
+mod boundary;
+mod projection;
+mod query;
+mod separable;
+mod viscosity;
+
+pub use advection::Advection;
+pub use boundary::Boundary;
+pub use viscosity::Viscosity;
+
+pub(crate) use advection::advect;
+pub(crate) use array::Array3;
+pub(crate) use boundary::Sides;
+pub(super) use separable::{End, Separable};
+
+use crate::Error;
+use projection::Projection;
+
+/// What [`MacGrid::new`] needs to know.
+#[derive(Clone)]
+pub struct MacGridParams {
+    /// Cells along x, y and z. One cell makes the flow uniform along that axis: 64 × 64 × 1 is a
+    /// two-dimensional grid. Default 32 × 32 × 16 (thesis).
+    pub cells: [usize; 3],
+    /// Edge of a cell, m. Default 1/32.
+    pub cell_size: f64,
+    /// Kinematic viscosity ν, m²/s. Default 0.
+    pub viscosity: f64,
+    /// What is at the lower and upper end of each axis. Default periodic.
+    pub boundaries: [[Boundary; 2]; 3],
+    /// How velocity is advected. Default MacCormack.
+    pub advection: Advection,
+    /// How velocity diffuses. Default implicit.
+    pub viscous_step: Viscosity,
+}
+
+impl Default for MacGridParams {
+    fn default() -> Self {
+        Self {
+            cells: [32, 32, 16],
+            cell_size: 1.0 / 32.0,
+            viscosity: 0.0,
+            boundaries: Default::default(),
+            advection: Advection::default(),
+            viscous_step: Viscosity::default(),
+        }
+    }
+}
+
+/// What one step achieved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Largest divergence left in a fluid cell, in units of the largest speed over the cell size.
+    pub divergence: f64,
+    /// Iterations of the pressure solver: 0 without an obstacle, when it is direct.
+    pub iterations: usize,
+    /// Whether the pressure solver reached its tolerance.
+    pub converged: bool,
+    /// Largest number of cells that the fluid crossed along an axis in this step.
+    pub courant: f64,
+}
+
+/// The flow.
+pub struct MacGrid {
+    pub(crate) cells: [usize; 3],
+    pub(crate) h: f64,
+    pub(crate) sides: Sides,
+    /// Components on faces: `faces[c]` has one node more than there are cells along c.
+    pub(crate) faces: [Array3; 3],
+    solid: Vec<bool>,
+    eddy_viscosity: Option<Vec<f64>>,
+    viscosity: f64,
+    advection: Advection,
+    viscous_step: Viscosity,
+    projection: Projection,
+    diffusion: [Option<Separable>; 3],
+    time: f64,
+}
+
+impl MacGrid {
+    /// Fluid at rest in a box with a corner at the origin.
+    ///
+    /// # Errors
+    /// If a dimension is not 1 to 512 (periodic axes: 1 or at least 3), a size not positive, the viscosity negative,
+    /// an axis periodic at one end only, or an inactive axis not periodic or free-slip.
+    pub fn new(params: &MacGridParams) -> Result<Self, Error> {
+        for n in params.cells {
+            Error::check(
+                "cells",
+                n as f64,
+                n == 1 || (3..=512).contains(&n),
+                "1 or from 3 to 512 along each axis",
+            )?;
+        }
+        Error::check_positive("cell_size", params.cell_size)?;
+        Error::check_positive("1/cell_size²", params.cell_size.powi(-2))?;
+        Error::check_not_negative("viscosity", params.viscosity)?;
+        let cells = params.cells;
+        let active = cells.map(|n| n > 1);
+        let sides = Sides::new(params.boundaries.clone(), active)?;
+        let faces: [Array3; 3] = core::array::from_fn(|c| {
+            let mut dims = cells;
+            dims[c] += usize::from(active[c]);
+            Array3::new(dims, active)
+        });
+        let projection = Projection::new(cells, params.cell_size, &sides);
+        let diffusion = viscosity::solvers(params.viscosity, cells, params.cell_size, &sides);
+        let mut grid = Self {
+            cells,
+            h: params.cell_size,
+            sides,
+            faces,
+            solid: vec![false; cells.iter().product()],
+            eddy_viscosity: None,
+            viscosity: params.viscosity,
+            advection: params.advection,
+            viscous_step: params.viscous_step,
+            projection,
+            diffusion,
+            time: 0.0,
+        };
+        grid.apply_boundaries();
+        Ok(grid)
+    }
+
+    /// Sets the velocity (m/s) from its value at points (m), then removes its divergence.
+    ///
+    /// # Errors
+    /// If a value is not finite; the flow is then unchanged.
+    pub fn set_velocity(&mut self, velocity: impl Fn([f64; 3]) -> [f64; 3]) -> Result<(), Error> {
+        let mut faces = self.faces.clone();
+        for c in (0..3).filter(|c| self.cells[*c] > 1) {
+            for index in faces[c].indices() {
+                let value = velocity(self.face_center(c, index))[c];
+                faces[c].set(index, Error::check_finite("velocity", value)?);
+            }
+        }
+        self.faces = faces;
+        self.apply_boundaries();
+        self.project();
+        Ok(())
+    }
+
+    /// Makes the cells whose centers (m) are inside an obstacle solid and at rest.
+    ///
+    /// # Errors
+    /// If no fluid cell is left.
+    pub fn set_obstacle(&mut self, inside: impl Fn([f64; 3]) -> bool) -> Result<(), Error> {
+        let solid: Vec<bool> = Array3::new(self.cells, [false; 3])
+            .indices()
+            .map(|index| inside(index.map(|i| (i as f64 + 0.5) * self.h)))
+            .collect();
+        let fluid = solid.iter().filter(|solid| !**solid).count();
+        Error::check(
+            "number of fluid cells",
+            fluid as f64,
+            fluid > 0,
+            "positive: the obstacle fills the box",
+        )?;
+        self.solid = solid;
+        self.projection.set_obstacle(&self.solid, &self.sides);
+        self.apply_boundaries();
+        self.project();
+        Ok(())
+    }
+
+    /// Advances the flow by `dt` seconds.
+    ///
+    /// # Errors
+    /// If `dt` is not positive, so large that the fluid would cross more cells than there are, or,
+    /// with explicit diffusion, unstable (ν dt Σ 1/h² > ½). The flow is then unchanged.
+    pub fn step(&mut self, dt: f64) -> Result<StepReport, Error> {
+        Error::check_positive("dt", dt)?;
+        let courant = self.courant(dt);
+        let widest = self.cells.into_iter().max().unwrap_or(1) as f64;
+        Error::check(
+            "Courant number",
+            courant,
+            courant <= widest,
+            "at most the number of cells: use a shorter dt",
+        )?;
+        let dimensions = self.cells.iter().filter(|n| **n > 1).count() as f64;
+        let diffusion_number = self.viscosity * dt * dimensions / (self.h * self.h);
+        if self.viscous_step == Viscosity::Explicit {
+            Error::check(
+                "ν dt Σ 1/h²",
+                diffusion_number,
+                diffusion_number <= 0.5,
+                "at most 1/2 for explicit diffusion",
+            )?;
+        }
+        self.faces = advection::advect_velocity(self, dt);
+        self.time += dt;
+        self.apply_boundaries();
+        if self.viscosity > 0.0 {
+            viscosity::diffuse(self, dt);
+            self.apply_boundaries();
+        }
+        if let Some(eddy) = self.eddy_viscosity.take() {
+            viscosity::diffuse_eddies(self, &eddy, dt);
+            self.apply_boundaries();
+            self.eddy_viscosity = Some(eddy);
+        }
+        let mut report = self.project();
+        report.courant = courant;
+        Ok(report)
+    }
+
+    /// Lets unresolved turbulence mix the flow from now on: an eddy viscosity (m²/s) per cell, x
+    /// fastest, on top of the fluid's own.
+    ///
+    /// # Errors
+    /// If the number of values is not that of the cells, or one is negative or not finite.
+    pub fn set_eddy_viscosity(&mut self, eddy_viscosity: Vec<f64>) -> Result<(), Error> {
+        Error::check(
+            "number of eddy viscosities",
+            eddy_viscosity.len() as f64,
+            eddy_viscosity.len() == self.solid.len(),
+            "the number of cells",
+        )?;
+        for value in &eddy_viscosity {
+            Error::check_not_negative("eddy_viscosity", *value)?;
+        }
+        self.eddy_viscosity = Some(eddy_viscosity);
+        Ok(())
+    }
+
+    /// Time since the flow was created, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Cells along each axis.
+    pub fn cells(&self) -> [usize; 3] {
+        self.cells
+    }
+
+    /// Edge of a cell, m.
+    pub fn cell_size(&self) -> f64 {
+        self.h
+    }
+
+    /// Velocity at `x`, in cells from the corner.
+    pub(crate) fn velocity_in_cells(&self, x: [f64; 3]) -> [f64; 3] {
+        core::array::from_fn(|c| {
+            if self.cells[c] == 1 {
+                return 0.0;
+            }
+            let mut at = x.map(|x| x - 0.5);
+            at[c] = x[c];
+            self.faces[c].sample(at)
+        })
+    }
+
+    /// Center of a face, m.
+    pub(crate) fn face_center(&self, c: usize, index: [usize; 3]) -> [f64; 3] {
+        core::array::from_fn(|i| {
+            let offset = if i == c && self.cells[i] > 1 {
+                0.0
+            } else {
+                0.5
+            };
+            (index[i] as f64 + offset) * self.h
+        })
+    }
+
+    pub(crate) fn cell_number(&self, index: [usize; 3]) -> usize {
+        (index[2] * self.cells[1] + index[1]) * self.cells[0] + index[0]
+    }
+
+    pub(crate) fn solid(&self) -> &[bool] {
+        &self.solid
+    }
+
+    fn courant(&self, dt: f64) -> f64 {
+        self.max_speed() * dt / self.h
+    }
+
+    /// Divergence of the fluid cells, 1/s; 0 in solid ones.
+    fn divergence(&self) -> Vec<f64> {
+        Array3::new(self.cells, [false; 3])
+            .indices()
+            .zip(&self.solid)
+            .map(|(index, solid)| {
+                let sum: f64 = (0..3)
+                    .filter(|c| self.cells[*c] > 1)
+                    .map(|c| {
+                        let faces = &self.faces[c];
+                        let low = faces.position(index);
+                        faces.data[low + faces.stride[c]] - faces.data[low]
+                    })
+                    .sum();
+                if *solid { 0.0 } else { sum / self.h }
+            })
+            .collect()
+    }
+
+    /// Boundary faces, solid faces, ghosts.
+    fn apply_boundaries(&mut self) {
+        for c in 0..3 {
+            self.sides
+                .set_faces(c, &mut self.faces[c], self.h, self.time);
+        }
+        self.clear_solid_faces();
+        for c in 0..3 {
+            self.sides
+                .set_ghosts(c, &mut self.faces[c], self.h, self.time);
+        }
+    }
+
+    fn clear_solid_faces(&mut self) {
+        if !self.solid.contains(&true) {
+            return;
+        }
+        let cells = Array3::new(self.cells, [false; 3]);
+        for (index, solid) in cells.indices().zip(&self.solid) {
+            for c in (0..3).filter(|c| *solid && self.cells[*c] > 1) {
+                self.faces[c].set(index, 0.0);
+                let mut next = index;
+                next[c] += 1;
+                self.faces[c].set(next, 0.0);
+                if self.sides.is_periodic(c) {
+                    // Faces 0 and n are the same one.
+                    let n = self.cells[c];
+                    for (a, b) in [(0, n), (n, 0)] {
+                        if index[c] == a || next[c] == a {
+                            let mut twin = index;
+                            twin[c] = b;
+                            self.faces[c].set(twin, 0.0);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn project(&mut self) -> StepReport {
+        let mut divergence = self.divergence();
+        let (iterations, converged) = self.projection.solve(&mut divergence, &self.solid);
+        projection::subtract_gradient(self, &divergence);
+        self.apply_boundaries();
+        let speed = self.max_speed();
+        let left = self.max_divergence();
+        StepReport {
+            divergence: if speed > 0.0 {
+                left * self.h / speed
+            } else {
+                0.0
+            },
+            iterations,
+            converged,
+            courant: 0.0,
+        }
+    }
+}

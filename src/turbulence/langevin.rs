@@ -1,0 +1,245 @@
+//! Langevin equations in closed form: what a step of any length does to a fluctuating velocity.
+//!
+//! The thesis (§4.3) adds random increments to the body's own velocity. The default here is the
+//! physical one: the *fluid velocity that the body sees* fluctuates, and the body follows it as its
+//! drag and added mass let it, so heavy bodies filter the turbulence and light ones follow.
+
+use super::TurbulenceState;
+use rapier3d::math::{Real, Vector};
+
+/// C₀ of the Langevin equation, 6.5 (1 + 140 Re_λ^(−4/3))^(−3/4), of the *square* of the Taylor-scale
+/// Reynolds number (see [`TurbulenceState::taylor_reynolds_squared`]).
+///
+/// Pope (2011), Phys. Fluids 23, 075104; the thesis (4.10)–(4.11) inserts the body's Reynolds
+/// number, which overstates C₀. Tends to 6.5 for strong turbulence, to 0 for weak.
+#[inline]
+pub fn kolmogorov_constant(taylor_reynolds_squared: Real) -> Real {
+    let root = cube_root(taylor_reynolds_squared);
+    let x = 1.0 + 140.0 / (root * root);
+    // x^(−3/4) by square roots, which are several times cheaper than a power.
+    let root = x.sqrt();
+    6.5 / (root * root.sqrt())
+}
+
+/// Cube root of a number ≥ 0 to a few roundings: a first guess from the exponent and two Newton steps,
+/// several times cheaper than the library's, and the same on every platform.
+#[inline]
+fn cube_root(x: Real) -> Real {
+    // NaN is treated as zero.
+    let x = if x > 1.0e-30 { x.min(1.0e30) } else { 1.0e-30 };
+    let guess = Real::from_bits(x.to_bits() / 3 + 709_921_077);
+    let guess = (2.0 * guess + x / (guess * guess)) / 3.0;
+    (2.0 * guess + x / (guess * guess)) / 3.0
+}
+
+/// e^(−x) and 1 − e^(−2x) for x ≥ 0. The second without cancellation, as m(2 − m) of m = 1 − e^(−x), so that
+/// even a step of a millionth of the memory adds the right spread in f32. Basic operations only: cheap, and the
+/// same bits on every platform.
+#[inline]
+fn memory(x: Real) -> (Real, Real) {
+    // Eight terms of 1 − e^(−x), accurate to 1e-8 below .35.
+    let lost = |x: Real| {
+        let inner = 1.0 - x * (1.0 / 6.0) * (1.0 - x * (1.0 / 7.0) * (1.0 - x * (1.0 / 8.0)));
+        let inner = 1.0 - x * (1.0 / 4.0) * (1.0 - x * (1.0 / 5.0) * inner);
+        x * (1.0 - x * (1.0 / 2.0) * (1.0 - x * (1.0 / 3.0) * inner))
+    };
+    if x < 0.35 {
+        let lost = lost(x);
+        return (1.0 - lost, lost * (2.0 - lost));
+    }
+    // The 64th part, six times squared; beyond 22 nothing is kept.
+    let mut kept = 1.0 - lost(x.min(22.0) * (1.0 / 64.0));
+    for _ in 0..6 {
+        kept *= kept;
+    }
+    (kept, 1.0 - kept * kept)
+}
+
+/// The velocity fluctuation of the fluid around one body, as an Ornstein–Uhlenbeck process.
+///
+/// What is stored is the fluctuation divided by its standard deviation √(2k/3). Its equation
+/// dg = −¾C₀χ g dt + √(3/2 C₀χ) dW is thesis (4.8) divided by √(2k/3): the ½χ in the thesis's drift is
+/// the decay of k itself. So ⟨u²⟩ = ⅔k per component *exactly*, for steady, decaying or growing
+/// k, for every time step; and one step of length dt is many small ones.
+///
+/// In space the process knows only the local k: where k varies strongly, fluid tracers (not heavy bodies)
+/// would need a drift along ∇k to stay evenly mixed, which is left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct SeenFluctuation {
+    /// Fluctuation over standard deviation, world axes. Zero: starts in quiet fluid.
+    pub normalized: Vector,
+}
+
+impl SeenFluctuation {
+    /// A body that has been in the turbulence for long: `noise` is three standard Gaussian numbers.
+    pub fn stationary(noise: Vector) -> Self {
+        Self { normalized: noise }
+    }
+
+    /// One step of `dt` seconds; returns the velocity fluctuation at its end, m/s, world axes.
+    ///
+    /// `c0` is [`kolmogorov_constant`] of the state, `noise` three standard Gaussian numbers of this
+    /// body and step. `relative_speed` is the body's mean speed through the fluid (m/s): a body that
+    /// falls through the eddies sees them pass faster than a tracer does, which shortens the memory
+    /// by √(1 + u_r²/(⅔k)) (Csanady 1963, with Lagrangian and Eulerian time scales taken as equal). 0 for
+    /// a tracer.
+    #[inline]
+    pub fn advance(
+        &mut self,
+        state: &TurbulenceState,
+        c0: Real,
+        relative_speed: Real,
+        dt: Real,
+        noise: Vector,
+    ) -> Vector {
+        let k = state.kinetic_energy;
+        if k.is_nan() || k <= 0.0 {
+            return Vector::ZERO;
+        }
+        let variance = k * (2.0 / 3.0);
+        let crossing = (1.0 + relative_speed * relative_speed / variance).sqrt();
+        let decay = 0.75 * c0 * state.dissipation / k * crossing * dt;
+        let (kept, fresh2) = memory(decay);
+        self.normalized = self.normalized * kept + noise * fresh2.sqrt();
+        self.normalized * variance.sqrt()
+    }
+}
+
+/// The thesis's mode: the body's velocity relative to the local mean flow after `dt` seconds of
+/// dv = −(½ + ¾C₀)χ v dt + √(C₀ε) dW, thesis (4.12) with the exact update instead of (4.14)'s Euler step.
+///
+/// `noise` is three standard Gaussian numbers. With frozen k and ε the variance of v tends to
+/// (⅔k) C₀/(C₀ + ⅔).
+#[inline]
+pub fn relative_velocity_after(
+    relative_velocity: Vector,
+    state: &TurbulenceState,
+    c0: Real,
+    dt: Real,
+    noise: Vector,
+) -> Vector {
+    let alpha = (0.5 + 0.75 * c0) * state.turnover_rate();
+    let (kept, fresh2) = memory(alpha * dt);
+    let variance = if alpha > 0.0 {
+        c0 * state.dissipation / (2.0 * alpha)
+    } else {
+        0.0
+    };
+    relative_velocity * kept + noise * (variance * fresh2).sqrt()
+}
+
+/// The thesis's mode: random change of the body's spin in `dt` seconds, √(C₀ε dt)/L, rad/s.
+///
+/// Thesis (4.13) without the length L of the body (m) would be a velocity. Nothing here takes the spin away
+/// again: the vortical loads have to (thesis §4.3.2).
+#[inline]
+pub fn spin_increment(
+    state: &TurbulenceState,
+    c0: Real,
+    length: Real,
+    dt: Real,
+    noise: Vector,
+) -> Vector {
+    noise * ((c0 * state.dissipation * dt).max(0.0).sqrt() / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pope (2011): values at five Reynolds numbers, to three digits.
+    #[test]
+    fn kolmogorov_constant_of_the_taylor_scale() {
+        for (reynolds, c0) in [
+            (50.0, 4.25),
+            (100.0, 5.33),
+            (200.0, 5.97),
+            (500.0, 6.33),
+            (1000.0, 6.43),
+        ] {
+            let found = kolmogorov_constant(reynolds * reynolds);
+            assert!((found - c0).abs() < 5.1e-3, "{reynolds}: {found}");
+        }
+        assert!(kolmogorov_constant(0.0) < 1.0e-12);
+        assert_eq!(kolmogorov_constant(f32::INFINITY), 6.5);
+        for x in [1.0e-20f32, 0.37, 1.0, 8.0, 2.5e4, 7.7e20] {
+            assert!((cube_root(x) / x.cbrt() - 1.0).abs() < 1.0e-5, "{x}");
+        }
+    }
+
+    #[test]
+    fn memory_is_accurate_for_any_step() {
+        for x in [
+            0.0f32, 1.0e-9, 1.0e-5, 0.01, 0.1, 0.349, 0.351, 1.0, 5.0, 90.0,
+        ] {
+            let (kept, fresh2) = memory(x);
+            let y = f64::from(x);
+            // Six squarings of a number that is rounded to 6e-8 make 64 roundings of the result.
+            assert!(
+                (f64::from(kept) - (-y).exp()).abs() < 4.0e-6 * (-y).exp() + 1.0e-9,
+                "{x}"
+            );
+            let exact = -(-2.0 * y).exp_m1();
+            assert!(
+                (f64::from(fresh2) - exact).abs() <= 4.0e-6 * exact,
+                "{x}: {fresh2} {exact}"
+            );
+        }
+    }
+
+    /// One long step has the same memory and the same spread as many short ones.
+    #[test]
+    fn steps_compose() {
+        let state = TurbulenceState {
+            kinetic_energy: 0.6,
+            dissipation: 2.0,
+        };
+        let one = |dt: f32, n: u32| {
+            // Memory from a start without noise, spread from noise of one in every step.
+            let mut seen = SeenFluctuation::stationary(Vector::X);
+            let mut thesis = Vector::X;
+            let (mut spread, mut thesis_spread) = (0.0, 0.0);
+            for _ in 0..n {
+                seen.advance(&state, 4.0, 0.3, dt, Vector::ZERO);
+                thesis = relative_velocity_after(thesis, &state, 4.0, dt, Vector::ZERO);
+                let mut fresh = SeenFluctuation::default();
+                fresh.advance(&state, 4.0, 0.3, dt, Vector::X);
+                let kept = {
+                    let mut s = SeenFluctuation::stationary(Vector::X);
+                    s.advance(&state, 4.0, 0.3, dt, Vector::ZERO);
+                    s.normalized.x
+                };
+                spread = spread * kept * kept + fresh.normalized.x.powi(2);
+                let fresh = relative_velocity_after(Vector::ZERO, &state, 4.0, dt, Vector::X).x;
+                let kept = relative_velocity_after(Vector::X, &state, 4.0, dt, Vector::ZERO).x;
+                thesis_spread = thesis_spread * kept * kept + fresh * fresh;
+            }
+            [seen.normalized.x, thesis.x, spread, thesis_spread]
+        };
+        for (a, b) in one(0.1, 1).into_iter().zip(one(0.001, 100)) {
+            // A hundred f32 roundings of 6e-8.
+            assert!((a - b).abs() < 1.0e-5, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn no_turbulence_is_no_fluctuation() {
+        let still = TurbulenceState::default();
+        let mut seen = SeenFluctuation::stationary(Vector::ONE);
+        assert_eq!(
+            seen.advance(&still, 0.0, 0.0, 0.1, Vector::ONE),
+            Vector::ZERO
+        );
+        assert!(seen.normalized.is_finite());
+        let v = relative_velocity_after(Vector::X, &still, 0.0, 0.1, Vector::ONE);
+        assert_eq!(v, Vector::X);
+        assert_eq!(
+            spin_increment(&still, 6.5, 0.1, 0.1, Vector::ONE),
+            Vector::ZERO
+        );
+    }
+}

@@ -1,0 +1,140 @@
+//! Where a body's turbulence comes from.
+
+use super::{KEpsilon, TurbulenceState, TurbulenceTable};
+use crate::flow::LogLaw;
+use rapier3d::math::{Pose, Real, Vector};
+use std::sync::Arc;
+
+/// How strong the turbulence around a body is, at a place and a time: a layer over any mean
+/// [`Flow`](crate::flow::Flow).
+#[derive(Clone, Debug)]
+pub enum Turbulence {
+    /// The same everywhere and always.
+    Homogeneous(TurbulenceState),
+    /// Decays without shear from `initial` since the body's release, as the k–ε model does exactly:
+    /// k = k₀ [1 + (C₂−1) ε₀t/k₀]^(−1/(C₂−1)).
+    Decaying {
+        /// At the release.
+        initial: TurbulenceState,
+    },
+    /// The equilibrium surface layer under a log-law wind: k = u*²/√C_μ, ε = u*³/(κh).
+    SurfaceLayer(LogLaw),
+    /// A baked history that starts at the body's release (thesis Fig. 4.2).
+    History {
+        /// The history, in units of the two scales.
+        table: Arc<TurbulenceTable>,
+        /// U₀, m/s: the body's mean falling speed, thesis (4.1).
+        velocity_scale: Real,
+        /// L, m: the body's length.
+        length_scale: Real,
+    },
+    /// A baked field, fixed in the world. Tables without a field give their history.
+    Field {
+        /// The field, in units of the two scales.
+        table: Arc<TurbulenceTable>,
+        /// U₀, m/s.
+        velocity_scale: Real,
+        /// L, m.
+        length_scale: Real,
+        /// Pose of the field's axes in the world; its stream is along the first of them.
+        pose: Pose,
+    },
+}
+
+impl Turbulence {
+    /// The turbulence at `point` (world, m) and `time` (s, of the immersion) around a body released
+    /// `age` seconds ago.
+    pub fn at(&self, point: Vector, time: f64, age: f64) -> TurbulenceState {
+        match self {
+            Self::Homogeneous(state) => *state,
+            Self::Decaying { initial } => {
+                let (k, epsilon) = KEpsilon::default().advance(
+                    initial.kinetic_energy.into(),
+                    initial.dissipation.into(),
+                    0.0,
+                    age.max(0.0),
+                );
+                TurbulenceState {
+                    kinetic_energy: k as Real,
+                    dissipation: epsilon as Real,
+                }
+            }
+            Self::SurfaceLayer(wind) => TurbulenceState {
+                kinetic_energy: wind.turbulent_kinetic_energy(),
+                dissipation: wind.dissipation(wind.height(point)),
+            },
+            Self::History {
+                table,
+                velocity_scale,
+                length_scale,
+            } => {
+                let t = age * f64::from(velocity_scale / length_scale);
+                scaled(table.history_at(t), *velocity_scale, *length_scale)
+            }
+            Self::Field {
+                table,
+                velocity_scale,
+                length_scale,
+                pose,
+            } => {
+                let t = f64::from(velocity_scale / length_scale);
+                let state = match table.field() {
+                    Some(field) => {
+                        let local = pose.inverse_transform_point(point) / *length_scale;
+                        field.at(local, time * t)
+                    }
+                    None => table.history_at(age * t),
+                };
+                scaled(state, *velocity_scale, *length_scale)
+            }
+        }
+    }
+}
+
+/// A state in units of U₀² and U₀³/L, in SI units.
+fn scaled(state: TurbulenceState, velocity: Real, length: Real) -> TurbulenceState {
+    let velocity2 = velocity * velocity;
+    TurbulenceState {
+        kinetic_energy: state.kinetic_energy * velocity2,
+        dissipation: state.dissipation * velocity2 * velocity / length,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sources_agree_where_they_must() {
+        let initial = TurbulenceState {
+            kinetic_energy: 1.0,
+            dissipation: 1.0,
+        };
+        let decaying = Turbulence::Decaying { initial };
+        assert_eq!(decaying.at(Vector::ONE, 5.0, 0.0), initial);
+        // Decay of k0 = ε0 = 1 after 2 s: .32156.
+        let later = decaying.at(Vector::ONE, 5.0, 2.0);
+        assert!((later.kinetic_energy - 0.32156).abs() < 1.0e-5);
+        let wind = LogLaw::new(Vector::X, Vector::Y, 4.0, 10.0, 0.3).unwrap();
+        let layer = Turbulence::SurfaceLayer(wind);
+        let low = layer.at(Vector::Y, 0.0, 0.0);
+        let high = layer.at(Vector::Y * 10.0, 0.0, 0.0);
+        assert!((low.dissipation / high.dissipation - 10.0).abs() < 1.0e-4);
+        assert!(layer.at(-Vector::Y, 0.0, 0.0).dissipation.is_finite());
+    }
+
+    /// A table is one shape for all bodies: k scales as U₀², ε as U₀³/L, time as L/U₀.
+    #[test]
+    fn history_scales_with_speed_and_length() {
+        let table = Arc::new(TurbulenceTable::default_history());
+        let history = |velocity_scale, length_scale| Turbulence::History {
+            table: table.clone(),
+            velocity_scale,
+            length_scale,
+        };
+        let slow = history(1.0, 1.0).at(Vector::ZERO, 0.0, 1.5);
+        let fast = history(2.0, 0.1).at(Vector::ZERO, 0.0, 1.5 * 0.1 / 2.0);
+        assert!((fast.kinetic_energy / slow.kinetic_energy - 4.0).abs() < 1.0e-4);
+        assert!((fast.dissipation / slow.dissipation - 80.0).abs() < 1.0e-2);
+    }
+}

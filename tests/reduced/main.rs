@@ -1,0 +1,6 @@
+//! Laws of the reduced models.
+
+mod anchors;
+mod identify;
+mod surrogate;
+mod thesis;
