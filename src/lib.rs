@@ -16,8 +16,8 @@ pub mod reduced;
 pub mod turbulence;
 
 pub use body::{DryMass, ImmersedBody};
-pub use coupling::{ForceAndTorque, ForceBreakdown, Immersion, RapierSets, Warning, preset};
-pub use dynamics::{FreeBody, Integrator};
+pub use coupling::{Immersion, RapierSets, Warning, preset};
+pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;
 pub use hydro::{Accuracy, HydroProperties, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw};

@@ -5,11 +5,11 @@ use super::{Quat, Vec3};
 use clap::ValueEnum;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, Normal};
-use rapier3d_immersed::coupling::{ForceBreakdown, Immersion};
 use rapier3d_immersed::rapier3d::math::{Rotation, Vector};
 use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion};
 use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
 use rapier3d_immersed::{DryMass, Error, Fluid, FreeBody, ImmersedBody};
+use rapier3d_immersed::{ForceBreakdown, Immersion};
 use std::fmt::Write;
 
 /// Most steps of one run: what is recorded of them stays below 1 GB.

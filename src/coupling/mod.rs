@@ -12,5 +12,4 @@ mod readout;
 mod step;
 
 pub use immersion::{Immersion, Warning};
-pub use readout::{ForceAndTorque, ForceBreakdown};
 pub use step::RapierSets;

@@ -1,5 +1,6 @@
 //! One free body in f64, without rapier: for training, calibration and tests.
 
+use super::forces::{ForceBreakdown, Instant};
 use super::integrate::{Inviscid, Load, Motion, advance, rotate_back, substeps};
 use super::kirchhoff::Twist;
 use crate::Error;
@@ -156,6 +157,16 @@ impl FreeBody {
         self.velocity.linear += rotate_back(self.attitude.quaternion(), &stream);
         self.rate = motion.rate;
         self.position += motion.displacement + stream * dt;
+    }
+
+    /// The components of the force on the body in a fluid at rest under `gravity`, m/s².
+    pub fn forces(&self, gravity: Vector3<f64>) -> ForceBreakdown {
+        self.constants.forces(&Instant {
+            attitude: self.attitude,
+            velocity: self.velocity,
+            rate: self.rate,
+            gravity,
+        })
     }
 
     /// Momentum of body and fluid in plate axes, kg·m/s and kg·m²/s.

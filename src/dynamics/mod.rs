@@ -2,9 +2,11 @@
 
 #[cfg(test)]
 mod designs;
+pub mod forces;
 pub mod free_body;
 pub(crate) mod integrate;
 pub(crate) mod kirchhoff;
 
+pub use forces::{ForceAndTorque, ForceBreakdown};
 pub use free_body::FreeBody;
 pub use integrate::Integrator;

@@ -93,7 +93,7 @@ fn the_pose_of_the_collider_does_not_matter() {
         world.integration_parameters.dt = 1.0 / 240.0;
         // The body is turned back, so that the card itself lies the same in the world.
         let pose = Pose::from_parts(Vector::ZERO, lying) * Pose::from_parts(shift, turn).inverse();
-        let handle = world.insert_body(RigidBodyBuilder::dynamic().position(pose));
+        let handle = world.insert_body(RigidBodyBuilder::dynamic().pose(pose));
         let width = half[2] / parts as Real;
         for part in 0..parts {
             let z = width * (2 * part + 1) as Real - half[2];

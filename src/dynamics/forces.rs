@@ -1,0 +1,143 @@
+//! Why does it do that: every component of the force on one body.
+
+use super::integrate::Inviscid;
+use super::kirchhoff::{Twist, cross};
+use crate::body::{BodyConstants, LawConstants};
+use crate::hydro::viscous::{Evaluate, ViscousTerms};
+use crate::math::to_real;
+use rapier3d::math::Vector;
+use rapier3d::na::{UnitQuaternion, Vector3};
+
+/// A force, N, and its moment about the center of mass, N·m, world axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ForceAndTorque {
+    /// Force, N.
+    pub force: Vector,
+    /// Torque about the center of mass, N·m.
+    pub torque: Vector,
+}
+
+impl std::ops::Add for ForceAndTorque {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            force: self.force + other.force,
+            torque: self.torque + other.torque,
+        }
+    }
+}
+
+/// What the fluid and gravity do to a body at one moment, by component.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ForceBreakdown {
+    /// Inertia of the fluid that the body drags along: `−A dν/dt` with the acceleration of the last
+    /// step, and the Munk moment and its kin.
+    pub added_mass: ForceAndTorque,
+    /// Along the velocity of the pressure point, against it: pressure and friction.
+    pub drag: ForceAndTorque,
+    /// Lift of the plate's angle of attack.
+    pub translational_lift: ForceAndTorque,
+    /// Lift of the rotation, and the Magnus force.
+    pub rotational_lift: ForceAndTorque,
+    /// Resistance to rotation: a pure torque.
+    pub damping: ForceAndTorque,
+    /// Buoyancy, at the center of the displaced volume.
+    pub buoyancy: ForceAndTorque,
+    /// Weight, at the center of mass.
+    pub weight: ForceAndTorque,
+    /// Share of the fluid's turbulence in the viscous force; zero without a turbulent flow.
+    pub turbulence: ForceAndTorque,
+    /// Angle of attack: of the relative velocity to the plate, rad, 0 edgewise to π/2 broadside.
+    pub angle_of_attack: f32,
+}
+
+/// The state that forces depend on.
+pub(crate) struct Instant {
+    /// Plate axes to world.
+    pub attitude: UnitQuaternion<f64>,
+    /// u and w = ωL relative to the fluid, plate axes.
+    pub velocity: Twist<f64>,
+    /// dν/dt of the last substep, plate axes.
+    pub rate: Twist<f64>,
+    /// Gravity that the body feels, m/s², world axes.
+    pub gravity: Vector3<f64>,
+}
+
+impl BodyConstants {
+    /// The components of the force at one moment.
+    pub fn forces(&self, now: &Instant) -> ForceBreakdown {
+        let (inertia, velocity, attitude) = (&self.inertia, &now.velocity, now.attitude);
+        let center = inertia.center_velocity(velocity);
+        let w = &velocity.angular;
+        let terms = match &self.law {
+            LawConstants::Inviscid => Evaluate::<f64>::terms(&Inviscid, &center, w),
+            LawConstants::Physical(law) => law.terms(&center, w),
+            LawConstants::Thesis(law) => law.terms(&center, w),
+            LawConstants::Stochastic(law) => law.terms(&center, w),
+        };
+        let world = |force: Vector3<f64>, torque: Vector3<f64>| ForceAndTorque {
+            force: to_real(attitude * force * self.mass),
+            torque: to_real(attitude * torque * (self.mass * self.length)),
+        };
+        let at_pressure = |part: fn(&ViscousTerms<f64>, &Vector3<f64>) -> Vector3<f64>| {
+            let mut v = center;
+            if terms.arm_moves {
+                v.z += w.x * terms.arm.y - w.y * terms.arm.x;
+            }
+            let force = part(&terms, &v);
+            let mut torque = cross(&terms.arm, &force);
+            if terms.arm_moves {
+                torque.z = 0.0;
+            }
+            world(force, torque + cross(&inertia.center(), &force))
+        };
+        let buoyancy = now.gravity * -self.displaced_mass;
+        let arm = attitude * (self.axes.inverse() * self.buoyancy_arm);
+        let speed = center.norm();
+        let (force, torque) = self.fluid_inertia(velocity, &now.rate);
+        ForceBreakdown {
+            added_mass: world(force, torque),
+            drag: at_pressure(|t, v| -v.component_mul(&t.creeping) - v * t.drag),
+            translational_lift: at_pressure(|t, v| cross(&t.translational_lift, v)),
+            rotational_lift: at_pressure(|t, v| cross(&t.rotational_lift, v)),
+            damping: world(Vector3::zeros(), -terms.damping.component_mul(w)),
+            buoyancy: ForceAndTorque {
+                force: to_real(buoyancy),
+                torque: to_real(arm.cross(&buoyancy)),
+            },
+            weight: ForceAndTorque {
+                force: to_real(now.gravity * self.dry.mass),
+                torque: Vector::ZERO,
+            },
+            turbulence: ForceAndTorque::default(),
+            angle_of_attack: if speed > 0.0 {
+                (center.z.abs() / speed).min(1.0).asin() as f32
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// Force and torque of the fluid's own inertia, in the integrator's units: that of 𝕄 less that
+    /// of the body itself.
+    fn fluid_inertia(&self, v: &Twist<f64>, rate: &Twist<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        let mass = self.inertia.mass_matrix();
+        let turn = self.axes.inverse();
+        let dry = turn.matrix() * self.dry.inertia * self.axes.matrix()
+            / (self.mass * self.length * self.length);
+        let fluid = |v: &Twist<f64>| Twist {
+            linear: mass.m11 * v.linear + mass.m12 * v.angular - v.linear * self.inertia.dry_mass,
+            angular: mass.m21 * v.linear + mass.m22 * v.angular - dry * v.angular,
+        };
+        let resisted = fluid(rate);
+        let carried = fluid(v);
+        let spinning = mass.m22 * v.angular - dry * v.angular;
+        let felt = self.inertia.munk * self.inertia.per_length;
+        let force = cross(&carried.linear, &v.angular) * felt - resisted.linear;
+        let munk = cross(&carried.linear, &v.linear) + cross(&(mass.m21 * v.linear), &v.angular);
+        let torque =
+            cross(&spinning, &v.angular) * self.inertia.per_length + munk * felt - resisted.angular;
+        (force, torque)
+    }
+}
