@@ -85,8 +85,8 @@ struct Options {
     /// Who integrates: a rapier world (f32), or the crate's own free body (f64)
     #[arg(long, value_enum, default_value = "rapier")]
     integrator: IntegratorName,
-    /// Write t, position, quaternion, velocities and, from rapier, the components of the force (world
-    /// axes, N and N·m) on every step
+    /// Write t, position, quaternion, velocities and the components of the force (world axes, N and N·m) on
+    /// every step
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Draw the trajectory, from the side and from above
