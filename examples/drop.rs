@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use support::cli::{self, FluidArgs, Lengths, bad_value};
 use support::fall::{Fall, FallOptions, IntegratorName, Release};
 use support::law::{LawName, law};
-use support::specimen::{ShapeName, Specimen};
+use support::specimen::{ShapeName, Specimen, TiltAxis};
 use support::statistics::Statistics;
 use support::{Vec3, picture};
 
@@ -47,9 +47,13 @@ struct Options {
     mass: Option<f64>,
     #[command(flatten)]
     fluid: FluidArgs,
-    /// Tilt at the release, degrees from horizontal, about x: lowers the +z side
+    /// Tilt at the release, degrees from horizontal; a positive one lowers the +z side (tilt axis
+    /// long) or the +x end (short)
     #[arg(long, value_name = "DEG", default_value = "10", value_parser = cli::finite)]
     release_angle: f64,
+    /// Axis of the body that stays horizontal [default: short for an ellipse, otherwise long]
+    #[arg(long, value_enum)]
+    tilt_axis: Option<TiltAxis>,
     /// Velocity at the release, m/s
     #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = cli::vector,
           allow_hyphen_values = true)]
@@ -81,8 +85,8 @@ struct Options {
     /// Who integrates: a rapier world (f32), or the crate's own free body (f64)
     #[arg(long, value_enum, default_value = "rapier")]
     integrator: IntegratorName,
-    /// Write t, position, quaternion, velocities and, from rapier, the components of the force (world
-    /// axes, N and N·m) on every step
+    /// Write t, position, quaternion, velocities and the components of the force (world axes, N and N·m) on
+    /// every step
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Draw the trajectory, from the side and from above
@@ -120,8 +124,9 @@ fn main() {
         .unwrap_or_else(|error| bad_value("--coefficients", error));
     check(&body, &dry, &fluid);
 
+    let tilt_axis = options.tilt_axis.unwrap_or(TiltAxis::usual(shape));
     let release = Release {
-        orientation: specimen.released_at(options.release_angle.to_radians()),
+        orientation: specimen.released_at(options.release_angle.to_radians(), tilt_axis),
         velocity: options.velocity,
         spin: options.spin,
     };

@@ -1,10 +1,11 @@
 //! A few hundred leaves and some confetti fall on a floor with obstacles: they flutter, tumble,
-//! collide and come to rest. Beside it the same scene in plain rapier.
+//! collide and come to rest. Or a paper airplane flies. Beside it the same scene in plain rapier.
 //!
 //! ```text
 //! cargo run --release --example falling_leaves
 //! cargo run --release --example falling_leaves -- --fluid water --leaves 100
 //! cargo run --release --example falling_leaves -- --mesh my_leaf.obj --scale 0.001
+//! cargo run --release --example falling_leaves -- --scene airplane
 //! ```
 //!
 //! Writes `frames.svg` (moments of the run), `trajectories.svg` (both runs, from the side and from
@@ -12,31 +13,35 @@
 
 mod support;
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
 use rand::{RngExt, SeedableRng};
 use rapier3d_immersed::coupling::{Immersion, Warning, preset};
 use rapier3d_immersed::rapier3d::math::{Pose, Rotation, Vector};
 use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::PathBuf;
+use support::airplane::Flight;
 use support::cli::{self, FluidName, bad_value};
 use support::leaf::{Blade, Outline};
-use support::recording::{RunOptions, run};
+use support::recording::{Recording, RunOptions, run};
 use support::scene::{Kind, Scene};
 use support::summary::{Summary, table};
-use support::{Quat, Vec3, gallery, glb, mesh};
+use support::{Quat, Vec3, airplane, gallery, glb, mesh};
 
 /// Leaves and confetti fall on a floor with obstacles; the same scene in plain rapier beside it.
 #[derive(Parser, Debug)]
 #[command(name = "falling_leaves", version, allow_negative_numbers = true)]
 struct Options {
-    /// Number of leaves
-    #[arg(long, value_name = "N", default_value = "300", value_parser = clap::value_parser!(u32).range(0..=20_000))]
-    leaves: u32,
+    /// What falls
+    #[arg(long, value_enum, default_value = "leaves")]
+    scene: SceneName,
+    /// Number of leaves [default: 300]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
+    leaves: Option<u32>,
     /// Number of pieces of confetti [default: a third of --leaves]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
     confetti: Option<u32>,
-    /// Simulated time, s [default: 7 in air, 40 in water]
+    /// Simulated time, s [default: leaves 7 in air, 40 in water; airplane 4, 20]
     #[arg(long, value_name = "S", value_parser = cli::positive)]
     seconds: Option<f64>,
     /// Fluid to fall through
@@ -49,12 +54,13 @@ struct Options {
     /// Factor for the coordinates of --mesh: 0.001 for millimetres
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = cli::positive)]
     scale: f64,
-    /// Density of the leaves, kg/m³ [default: 350 in air, 1400 in water]
+    /// Density of the leaves [default: 350 in air, 1400 in water] or of the airplane [default: 800 in
+    /// air, 2000 in water], kg/m³
     #[arg(long, value_name = "KG/M3", value_parser = cli::positive)]
     density: Option<f64>,
-    /// Seed of the release: places, attitudes, colours
-    #[arg(long, value_name = "N", default_value = "7")]
-    seed: u64,
+    /// Seed of the leaves' release: places, attitudes, colours [default: 7]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
     /// Time step, s [default: 1/240, the leaf-scale preset]
     #[arg(long, value_name = "S", value_parser = cli::positive)]
     dt: Option<f64>,
@@ -72,6 +78,15 @@ struct Options {
     json: bool,
 }
 
+/// Scenes by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SceneName {
+    /// Leaves and confetti
+    Leaves,
+    /// The thesis's paper airplane of 8.3 × 8.3 × 0.01 cm, started with 20 cm/s
+    Airplane,
+}
+
 /// Linear RGB.
 const AUTUMN: [[f32; 3]; 5] = [
     [0.55, 0.16, 0.02],
@@ -85,10 +100,15 @@ const STONE: [f32; 3] = [0.42, 0.44, 0.47];
 
 fn main() {
     let options: Options = cli::parse();
-    let seconds = options.seconds.unwrap_or(match options.fluid {
-        FluidName::Air => 7.0,
-        FluidName::Water => 40.0,
-    });
+    check(&options);
+    let seconds = options
+        .seconds
+        .unwrap_or(match (options.scene, options.fluid) {
+            (SceneName::Leaves, FluidName::Air) => 7.0,
+            (SceneName::Leaves, FluidName::Water) => 40.0,
+            (SceneName::Airplane, FluidName::Air) => 4.0,
+            (SceneName::Airplane, FluidName::Water) => 20.0,
+        });
     let kinds = kinds(&options);
     let mut scene = build(&options, &kinds);
     if scene.pieces.is_empty() {
@@ -120,7 +140,6 @@ fn main() {
     };
     let recording = run(&mut scene, &run_options, |world| immersion.step(world));
     report_warnings(immersion.warnings());
-    let summary = Summary::of(&scene, &recording);
 
     let plain = (!options.no_compare).then(|| {
         let mut scene = build(&options, &kinds);
@@ -128,26 +147,23 @@ fn main() {
             message: "plain rapier",
             ..run_options
         };
-        let recording = run(&mut scene, &run_options, PhysicsWorld::step);
-        (Summary::of(&scene, &recording), recording)
+        run(&mut scene, &run_options, PhysicsWorld::step)
     });
-    let plain_summary = plain.as_ref().map(|(summary, _)| summary);
+    let told = match options.scene {
+        SceneName::Leaves => leaves_told(&scene, &recording, plain.as_ref()),
+        SceneName::Airplane => airplane_told(&scene, &recording, plain.as_ref()),
+    };
 
+    let (immersed, plain) = told.numbers;
     let json = json!({
         "pieces": scene.pieces.len(),
-        "immersed": summary.json(),
-        "plain": plain_summary.map(Summary::json),
+        "immersed": immersed,
+        "plain": plain,
     });
     let files = [
-        (
-            "frames.svg",
-            gallery::frames(&scene, &recording, &summary).into_bytes(),
-        ),
-        (
-            "trajectories.svg",
-            gallery::trajectories(&scene, &recording, plain.as_ref().map(|(_, r)| r)).into_bytes(),
-        ),
-        ("leaves.glb", glb::animation(&scene, &recording)),
+        ("frames.svg", told.frames.into_bytes()),
+        ("trajectories.svg", told.trajectories.into_bytes()),
+        (told.animation, glb::animation(&scene, &recording)),
         ("summary.json", format!("{json:#}\n").into_bytes()),
     ];
     for (name, content) in &files {
@@ -156,17 +172,67 @@ fn main() {
     if options.json {
         println!("{json:#}");
     } else {
-        println!(
-            "{} leaves and pieces of confetti, {seconds} s in {}",
-            scene.pieces.len(),
-            match options.fluid {
-                FluidName::Air => "air",
-                FluidName::Water => "water",
-            }
-        );
-        print!("{}", table(&summary, plain_summary));
+        let fluid = match options.fluid {
+            FluidName::Air => "air",
+            FluidName::Water => "water",
+        };
+        println!("{}, {seconds} s in {fluid}", told.title);
+        print!("{}", told.table);
         let names = files.map(|(name, _)| options.out.join(name).display().to_string());
         println!("wrote {}", names.join(", "));
+    }
+}
+
+/// A finished run in words, numbers and pictures.
+struct Told {
+    title: String,
+    table: String,
+    /// Immersed and in plain rapier.
+    numbers: (Value, Option<Value>),
+    frames: String,
+    trajectories: String,
+    /// Name of the animation's file.
+    animation: &'static str,
+}
+
+fn leaves_told(scene: &Scene, recording: &Recording, plain: Option<&Recording>) -> Told {
+    let summary = Summary::of(scene, recording);
+    let plain_summary = plain.map(|plain| Summary::of(scene, plain));
+    Told {
+        title: format!("{} leaves and pieces of confetti", scene.pieces.len()),
+        table: table(&summary, plain_summary.as_ref()),
+        numbers: (summary.json(), plain_summary.map(|plain| plain.json())),
+        frames: gallery::frames(scene, recording, &summary),
+        trajectories: gallery::trajectories(scene, recording, plain),
+        animation: "leaves.glb",
+    }
+}
+
+fn airplane_told(scene: &Scene, recording: &Recording, plain: Option<&Recording>) -> Told {
+    let flight = Flight::of(scene, recording);
+    let plain_flight = plain.map(|plain| Flight::of(scene, plain));
+    Told {
+        title: "a paper airplane".into(),
+        table: airplane::table(&flight, plain_flight.as_ref()),
+        numbers: (flight.json(), plain_flight.map(|plain| plain.json())),
+        frames: airplane::frames(scene, recording, &flight),
+        trajectories: airplane::path(scene, recording, &flight, plain),
+        animation: "airplane.glb",
+    }
+}
+
+/// Ends the program if an option is of no use in the scene.
+fn check(options: &Options) {
+    let only_leaves = [
+        ("--leaves", options.leaves.is_some()),
+        ("--confetti", options.confetti.is_some()),
+        ("--mesh", options.mesh.is_some()),
+        ("--seed", options.seed.is_some()),
+    ];
+    if options.scene == SceneName::Airplane
+        && let Some((flag, _)) = only_leaves.iter().find(|(_, given)| *given)
+    {
+        bad_value(flag, "is for --scene leaves");
     }
 }
 
@@ -184,13 +250,17 @@ fn report_warnings(warnings: &[Warning]) {
     }
 }
 
-/// Leaves first, confetti last.
+/// Leaves first, confetti last; or the airplane.
 fn kinds(options: &Options) -> Vec<Kind> {
     let (leaf, paper) = match options.fluid {
         FluidName::Air => (350.0, 800.0),
         // Soaked leaves sink by 1 to 2 cm/s; these are of plastic, for the patience of the viewer.
         FluidName::Water => (1400.0, 2000.0),
     };
+    if options.scene == SceneName::Airplane {
+        let kind = airplane::kind(options.density.unwrap_or(paper));
+        return vec![kind.unwrap_or_else(|problem| bad_value("--density", problem))];
+    }
     let leaf = options.density.unwrap_or(leaf);
     let mut kinds = match &options.mesh {
         Some(path) => {
@@ -248,21 +318,25 @@ fn built_in(blade: &Blade, density: f64) -> Kind {
         .unwrap_or_else(|problem| bad_value("--density", problem))
 }
 
-/// Floor, obstacles, and all pieces at rest above them. Equal options give equal scenes.
+/// Floor, obstacles, and all pieces above them. Equal options give equal scenes.
 fn build(options: &Options, kinds: &[Kind]) -> Scene {
     let mut world = PhysicsWorld::new();
     preset::leaf_scale(&mut world.integration_parameters);
     if let Some(dt) = options.dt {
         world.integration_parameters.dt = dt as f32;
     }
+    if options.scene == SceneName::Airplane {
+        return airplane::scene(world, kinds);
+    }
     let mut scene = Scene::new(world);
     scene.kinds = kinds.to_vec();
     furnish(&mut scene);
 
-    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(options.seed);
-    let confetti = options.confetti.unwrap_or(options.leaves / 3);
-    let count = options.leaves + confetti;
-    let mut order: Vec<bool> = (0..count).map(|i| i < options.leaves).collect();
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(options.seed.unwrap_or(7));
+    let leaves = options.leaves.unwrap_or(300);
+    let confetti = options.confetti.unwrap_or(leaves / 3);
+    let count = leaves + confetti;
+    let mut order: Vec<bool> = (0..count).map(|i| i < leaves).collect();
     for i in (1..order.len()).rev() {
         order.swap(i, random.random_range(0..=i));
     }

@@ -64,7 +64,7 @@ pub struct FallOptions {
     pub seconds: f64,
     /// Who integrates.
     pub integrator: IntegratorName,
-    /// Whether to record the components of the force (rapier only).
+    /// Whether to record the components of the force.
     pub forces: bool,
 }
 
@@ -155,7 +155,7 @@ impl Fall {
             fall.stable &= kinetic_energy(dry, &sample) <= given + margin;
             fall.samples.push(sample);
             if options.forces {
-                fall.forces.push(simulator.forces());
+                fall.forces.push(simulator.forces(options));
             }
         }
         Ok(fall)
@@ -286,9 +286,9 @@ impl Simulator {
         }
     }
 
-    fn forces(&self) -> Option<ForceBreakdown> {
+    fn forces(&self, options: &FallOptions) -> Option<ForceBreakdown> {
         match self {
-            Self::Free(_) => None,
+            Self::Free(body) => Some(body.forces(Vec3::new(0.0, -options.gravity, 0.0))),
             Self::Rapier(world) => world.immersion.forces(&world.world.bodies, world.body),
         }
     }

@@ -175,23 +175,51 @@ impl RawMesh {
                 .into());
         }
         let offset = mean.normalize() * (0.5 * thickness);
-        let count = sheet.vertices.len() as u32;
-        let upper = sheet.vertices.iter().map(|v| v + offset);
-        let lower = sheet.vertices.iter().map(|v| v - offset);
+        sheet.between(&vec![offset; sheet.vertices.len()])
+    }
+
+    /// An open sheet as a solid of this thickness (m) across each of its faces, mitred at the folds.
+    ///
+    /// # Errors
+    /// What is wrong with the mesh.
+    pub fn mitred(&self, thickness: f64) -> Result<Surface, String> {
+        // The offset d of a vertex has d·n = thickness/2 for the normals n of all faces around it.
+        let mut normals = vec![(Matrix3::zeros(), Vec3::zeros()); self.vertices.len()];
+        for t in &self.triangles {
+            let [a, b, c] = t.map(|i| self.vertices[i as usize]);
+            let n = (b - a).cross(&(c - a)).normalize();
+            for i in t {
+                let (squares, sum) = &mut normals[*i as usize];
+                *squares += n * n.transpose();
+                *sum += n * (0.5 * thickness);
+            }
+        }
+        let offsets: Result<Vec<Vec3>, String> = normals
+            .iter()
+            .map(|(squares, sum)| Ok(squares.pseudo_inverse(1e-6)? * sum))
+            .collect();
+        self.between(&offsets?)
+    }
+
+    /// The solid between the sheet moved by the offsets of its vertices (m), and by their opposites.
+    fn between(&self, offsets: &[Vec3]) -> Result<Surface, String> {
+        let count = self.vertices.len() as u32;
+        let pairs = || self.vertices.iter().zip(offsets);
+        let upper = pairs().map(|(v, offset)| v + offset);
+        let lower = pairs().map(|(v, offset)| v - offset);
         let vertices: Vec<Vec3> = upper.chain(lower).collect();
-        let mut triangles = sheet.triangles.clone();
+        let mut triangles = self.triangles.clone();
         triangles.extend(
-            sheet
-                .triangles
+            self.triangles
                 .iter()
                 .map(|t| [t[2], t[1], t[0]].map(|i| i + count)),
         );
         let edges = |t: &[u32; 3]| [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])];
         let mut uses: HashMap<(u32, u32), u32> = HashMap::new();
-        for edge in sheet.triangles.iter().flat_map(edges) {
+        for edge in self.triangles.iter().flat_map(edges) {
             *uses.entry(edge).or_default() += 1;
         }
-        for (a, b) in sheet.triangles.iter().flat_map(edges) {
+        for (a, b) in self.triangles.iter().flat_map(edges) {
             if !uses.contains_key(&(b, a)) {
                 triangles.push([b, a, a + count]);
                 triangles.push([b, a + count, b + count]);

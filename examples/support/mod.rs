@@ -3,6 +3,7 @@
 //! Every example includes this module with `mod support;` and uses its own part of it.
 #![allow(dead_code, reason = "each example uses its own part")]
 
+pub mod airplane;
 pub mod cli;
 pub mod fall;
 pub mod gallery;

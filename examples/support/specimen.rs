@@ -29,6 +29,25 @@ pub enum ShapeName {
     Mesh,
 }
 
+/// Axis of the body that stays horizontal when it is tilted for the release.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TiltAxis {
+    /// The long one, along x: the chord dips, as in the experiments with falling plates
+    Long,
+    /// The shorter in-plane one, along z: the long axis dips, as for the card of the thesis, § 5.4
+    Short,
+}
+
+impl TiltAxis {
+    /// The axis of the published cases: short for an ellipse, long for everything else.
+    pub fn usual(shape: ShapeName) -> Self {
+        match shape {
+            ShapeName::Ellipse => Self::Short,
+            _ => Self::Long,
+        }
+    }
+}
+
 /// Which definition of the dimensionless moment of inertia fits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outline {
@@ -244,10 +263,14 @@ impl Specimen {
         }
     }
 
-    /// Orientation for a release angle (rad): turned about the horizontal x axis, along which the long
-    /// axis of a plate lies, so that a positive angle lowers the +z side.
-    pub fn released_at(&self, angle: f64) -> Quat {
-        Quat::from_axis_angle(&Vec3::x_axis(), angle) * self.level
+    /// Orientation for a release angle (rad): turned about the horizontal axis along which the body's
+    /// `axis` lies, so that a positive angle lowers the +z side (long) or the +x end (short).
+    pub fn released_at(&self, angle: f64, axis: TiltAxis) -> Quat {
+        let tilt = match axis {
+            TiltAxis::Long => Quat::from_axis_angle(&Vec3::x_axis(), angle),
+            TiltAxis::Short => Quat::from_axis_angle(&Vec3::z_axis(), -angle),
+        };
+        tilt * self.level
     }
 
     /// I* with the body's density, kg/m³: πρ_s t/(64ρ_f d) for round bodies (d the diameter or minor

@@ -4,7 +4,7 @@
 use crate::support::cli::Lengths;
 use crate::support::fall::{Fall, FallOptions, IntegratorName, Release};
 use crate::support::law::{LawName, law};
-use crate::support::specimen::{ShapeName, Specimen};
+use crate::support::specimen::{ShapeName, Specimen, TiltAxis};
 use crate::support::{Vec3, picture};
 use rapier3d_immersed::{Fluid, ImmersedBody, ViscousLaw};
 
@@ -21,7 +21,7 @@ fn fall(
         .with_law(law)
         .unwrap();
     let release = Release {
-        orientation: specimen.released_at(0.4),
+        orientation: specimen.released_at(0.4, TiltAxis::Long),
         velocity: Vec3::zeros(),
         spin: Vec3::zeros(),
     };
@@ -64,6 +64,11 @@ fn rapier_and_the_free_body_fall_alike() {
         assert!((a.normal - b.normal).norm() < 2e-2, "{a:?}\n{b:?}");
     }
     assert!(free.stable && rapier.stable);
+    // Both components and columns: of the free body as of the immersed one, once it is in the fluid.
+    assert!(free.forces.iter().all(Option::is_some));
+    let (a, b) = (free.forces[1].unwrap(), rapier.forces[1].unwrap());
+    assert!((a.weight.force - b.weight.force).length() < 1e-5 * a.weight.force.length());
+    assert!((a.drag.force - b.drag.force).length() < 1e-2 * a.weight.force.length());
     let lines: Vec<String> = rapier.csv().lines().map(str::to_string).collect();
     assert_eq!(lines.len(), 1 + 481);
     let columns = 14 + 8 * 6;

@@ -3,6 +3,7 @@
 #[path = "../../examples/support/mod.rs"]
 mod support;
 
+mod airplane;
 mod animation;
 mod falls;
 mod leaves;

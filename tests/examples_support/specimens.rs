@@ -3,7 +3,7 @@
 
 use crate::support::Vec3;
 use crate::support::cli::{Lengths, lengths, one_line, vector};
-use crate::support::specimen::{ShapeName, Specimen};
+use crate::support::specimen::{ShapeName, Specimen, TiltAxis};
 use rapier3d_immersed::Fluid;
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::geometry::SharedShape;
@@ -60,7 +60,7 @@ fn a_plate_is_the_same_in_any_order_and_lies_flat() {
         let fluid = Fluid::new(500.0, 1e-6).unwrap();
         assert!((plate.i_star(1000.0, &fluid) - 0.033_967).abs() < 1e-5);
         let axes = plate.hydro.planform.axes;
-        let level = plate.released_at(0.0);
+        let level = plate.released_at(0.0, TiltAxis::Long);
         assert!(
             (level * (axes * Vec3::z()) - Vec3::y()).norm() < 1e-9,
             "{size:?}"
@@ -69,8 +69,10 @@ fn a_plate_is_the_same_in_any_order_and_lies_flat() {
             (level * (axes * Vec3::x()) - Vec3::x()).norm() < 1e-9,
             "{size:?}"
         );
+        let dipped = plate.released_at(0.5, TiltAxis::Short) * (axes * Vec3::x());
+        assert!((dipped - Vec3::new(0.5_f64.cos(), -0.5_f64.sin(), 0.0)).norm() < 1e-9);
         // A positive angle lowers the +z side: the normal leans toward +z.
-        let tilted = plate.released_at(0.5) * (axes * Vec3::z());
+        let tilted = plate.released_at(0.5, TiltAxis::Long) * (axes * Vec3::z());
         assert!((tilted - Vec3::new(0.0, 0.5_f64.cos(), 0.5_f64.sin())).norm() < 1e-9);
     }
 }
