@@ -25,6 +25,9 @@ pub const SIDE: f64 = 0.083;
 pub const THICKNESS: f64 = 1e-4;
 /// Velocity at the release, m/s, along the nose.
 pub const SPEED: f64 = 0.2;
+/// How far the right wing is down at the release, rad: perfectly level, the airplane would never turn
+/// sideways. The thesis does not say.
+const BANK: f64 = 0.1;
 /// Thickness of the wings' collision boxes, m, as of the leaves'.
 const COLLISION_THICKNESS: f64 = 1e-3;
 /// The boundary-element solution; the file says which command wrote it.
@@ -153,14 +156,15 @@ fn faces(wing: &[Chord]) -> Vec<Vec<Vec3>> {
     ]
 }
 
-/// The airplane level above a floor, at its speed of release.
+/// The airplane above a floor, at its speed of release.
 pub fn scene(world: PhysicsWorld, kinds: &[Kind]) -> Scene {
     let mut scene = Scene::new(world);
     scene.kinds = kinds.to_vec();
     let floor = Pose::from_translation(Vector::new(0.0, -0.05, 0.0));
     scene.add_box(floor, [14.0, 0.1, 14.0], [0.62, 0.58, 0.50]);
     let level = Quat::from_axis_angle(&Vec3::x_axis(), -std::f64::consts::FRAC_PI_2);
-    let place = (Vec3::new(0.0, 1.5, 0.0), level);
+    let banked = Quat::from_axis_angle(&Vec3::x_axis(), BANK) * level;
+    let place = (Vec3::new(0.0, 1.5, 0.0), banked);
     scene.add_piece(
         0,
         [0.85, 0.85, 0.80],
@@ -307,10 +311,10 @@ fn silhouettes(
     until: f64,
     view: fn(&Vec3) -> (f64, f64),
 ) -> Vec<Line> {
-    const SHOWN: usize = 24;
+    const SHOWN: usize = 18;
     let look = scene.look(0);
     let count = recording.times.partition_point(|t| *t <= until);
-    let every = (count / SHOWN).max(1);
+    let every = count.div_ceil(SHOWN).max(1);
     let mut lines = Vec::new();
     for (i, pair) in recording.frames[..count].windows(2).enumerate() {
         let color = time_color(i as f64 / count as f64);
