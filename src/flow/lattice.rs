@@ -1,7 +1,7 @@
 //! Trilinear interpolation on a regular lattice, clamped or periodic along each axis.
 
 use crate::Error;
-use rapier3d::glamx::{BVec4A, Vec4};
+use rapier3d::glamx::Vec4;
 use rapier3d::math::{Real, Vector};
 
 /// Most nodes along one axis, so that products of three fit comfortably into `u64`.
@@ -28,7 +28,8 @@ struct Lanes {
     per_spacing: Vec4,
     nodes: Vec4,
     per_node: Vec4,
-    periodic: BVec4A,
+    /// 1 along periodic axes, 0 along the others: the mask's own type differs between glam's builds.
+    periodic: Vec4,
     /// Largest position and largest node below a cell.
     end: Vec4,
     last: Vec4,
@@ -97,7 +98,9 @@ impl Lattice {
                 per_spacing: spacing.recip().extend(0.0),
                 nodes,
                 per_node: nodes.recip(),
-                periodic: BVec4A::new(wraps[0], wraps[1], wraps[2], true),
+                periodic: Vec4::from_array(core::array::from_fn(|i| {
+                    f32::from(u8::from(i == 3 || wraps[i]))
+                })),
                 end: lanes(&|i| stored[i] - 1),
                 last: lanes(&|i| stored[i] - 2),
             },
@@ -137,7 +140,8 @@ impl Lattice {
         let x = (point - lanes.origin) * lanes.per_spacing;
         let turns = x * lanes.per_node;
         let wrapped = (turns - turns.floor()) * lanes.nodes;
-        let x = Vec4::select(lanes.periodic, wrapped, x).clamp(Vec4::ZERO, lanes.end);
+        let x =
+            Vec4::select(lanes.periodic.cmpgt(Vec4::ZERO), wrapped, x).clamp(Vec4::ZERO, lanes.end);
         let below = x.floor().min(lanes.last);
         let weight = (x - below).max(Vec4::ZERO);
         let [i, j, k, _] = below.to_array().map(|x| x as i32 as usize);
