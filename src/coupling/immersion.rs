@@ -28,6 +28,13 @@ use std::sync::Arc;
 /// * keeps its user forces, gravity scale (which scales the buoyancy too), damping, locked axes and
 ///   joints.
 ///
+/// Joints and locked axes act on the body as rapier holds it; such bodies, multibody links and bodies
+/// with solver iterations of their own get their motion by a force alone, like bodies in contact.
+/// Kinematic bodies are left alone until they become dynamic.
+///
+/// # Memory
+/// About 350 bytes per body, besides what equal bodies share, and as much again while it is awake.
+///
 /// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
 #[derive(Clone)]
 #[cfg_attr(
