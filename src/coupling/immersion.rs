@@ -33,7 +33,7 @@ use std::sync::Arc;
 /// Kinematic bodies are left alone until they become dynamic.
 ///
 /// # Memory
-/// About 350 bytes per body, besides what equal bodies share, and as much again while it is awake.
+/// About 400 bytes per body, besides what equal bodies share, and as much again while it is awake.
 ///
 /// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
 #[derive(Clone)]
@@ -414,5 +414,18 @@ impl Immersion {
         self.kinds
             .push(Kind::new(description, body, dry, &self.fluid)?);
         Ok(self.kinds.len() as u32 - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the documentation says of memory.
+    #[test]
+    fn bytes_per_body() {
+        let kept = size_of::<Slot>() + size_of::<Original>() + 64;
+        assert!(kept <= 450, "{kept}");
+        assert!(size_of::<super::super::flight::Flyer>() <= 400);
     }
 }

@@ -136,7 +136,7 @@ impl Sheet {
     /// spread in ±y. `side` is the length from nose to tail and the total unfolded width (m), a
     /// fifth of which makes the two sides of the keel; they open by 20°, the wings lie level.
     ///
-    /// The thesis flies one of 8.3 × 8.3 × 0.01 cm (its ch. 5) without giving its folds; these are
+    /// The thesis flies one of 8.3 × 8.3 × 0.01 cm (its § 4.6) without giving its folds; these are
     /// ours.
     ///
     /// # Errors
