@@ -12,7 +12,9 @@
 //! | 2 mm thick collision proxy, 120 Hz × 4 | 4 ms | 82 mm |
 //!
 //! The rule behind it: contacts at about 480 Hz need four substeps per period, that is 1920 substeps
-//! per second. The bench `pile` re-measures the table's first and third line.
+//! per second. The bench `pile` drops 1000 such leaves into a tray of 0.4 × 0.4 m, immersed in air:
+//! under rapier's defaults they collapse to 1 mm (95th percentile of the heights) and sleep there after
+//! 0.8 s; under [`leaf_scale`] they hold 13 mm, at 33 ms per step, and are still settling after 4 s.
 
 use rapier3d::dynamics::{IntegrationParameters, RigidBodyBuilder, SpringCoefficients};
 
