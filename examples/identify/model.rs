@@ -3,7 +3,7 @@
 use crate::card;
 use crate::free_fall::{Law, Specimen};
 use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion};
-use rapier3d_immersed::reduced::dormand_prince::Accuracy;
+use rapier3d_immersed::reduced::dormand_prince::Tolerances;
 use rapier3d_immersed::reduced::falling_plate::FallingPlate;
 use rapier3d_immersed::{Error, Fluid};
 
@@ -39,7 +39,7 @@ pub struct Model {
 /// The planar plate. Its parameters have no dimensions: lengths are in half chords `length`, m, speeds
 /// in `speed`, m/s.
 pub fn plate(inertia_ratio: f64, length: f64, speed: f64) -> Model {
-    const ACCURACY: Accuracy = Accuracy {
+    const TOLERANCES: Tolerances = Tolerances {
         relative: 1e-7,
         absolute: 1e-7,
         max_steps: 20_000,
@@ -48,7 +48,7 @@ pub fn plate(inertia_ratio: f64, length: f64, speed: f64) -> Model {
         let plate = FallingPlate::with_coefficients(inertia_ratio, [p[0], p[1], p[2], p[3], p[4]]);
         let start = [p[5], p[6], p[7], p[8], p[9], p[10]];
         let times = times[..out.len() / 3].iter().map(|t| t * speed / length);
-        let states = plate.trajectory(&start, &times.collect::<Vec<_>>(), ACCURACY);
+        let states = plate.trajectory(&start, &times.collect::<Vec<_>>(), TOLERANCES);
         for (row, state) in out.chunks_exact_mut(3).zip(states) {
             row.copy_from_slice(&[state[4] * length, state[5] * length, state[3]]);
         }

@@ -6,7 +6,7 @@ use rapier3d_immersed::Error;
 use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion, Vector3};
 use rapier3d_immersed::reduced::axis::{Axis, Family};
 use rapier3d_immersed::reduced::cross::{CrossParams, CrossReport, cross};
-use rapier3d_immersed::reduced::dormand_prince::{Accuracy, integrate};
+use rapier3d_immersed::reduced::dormand_prince::{Tolerances, integrate};
 use rapier3d_immersed::reduced::tensor_train::TensorTrain;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -178,7 +178,7 @@ impl SeparatedForces {
         parameters: &[f64],
         orientation: UnitQuaternion<f64>,
         times: &[f64],
-        accuracy: Accuracy,
+        tolerances: Tolerances,
     ) -> Vec<[f64; 2]> {
         let weight = Vector3::from_column_slice(&self.weight.evaluate(parameters));
         let mut point = Vec::new();
@@ -214,7 +214,7 @@ impl SeparatedForces {
         times
             .iter()
             .map(|time| {
-                integrate(&mut rate, now, *time, &mut state, accuracy);
+                integrate(&mut rate, now, *time, &mut state, tolerances);
                 now = *time;
                 [state[10], state[11]]
             })

@@ -9,7 +9,7 @@ use crate::own_horizon::{self, Curves, FLOW_MAP, TRAJECTORY};
 use indicatif::ProgressBar;
 use rapier3d_immersed::reduced::axis::Axis;
 use rapier3d_immersed::reduced::cross::{CrossParams, cross};
-use rapier3d_immersed::reduced::dormand_prince::{Accuracy, integrate};
+use rapier3d_immersed::reduced::dormand_prince::{Tolerances, integrate};
 use rapier3d_immersed::reduced::falling_plate::FallingPlate;
 use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 use std::time::Instant;
 
-const ACCURACY: Accuracy = Accuracy {
+const TOLERANCES: Tolerances = Tolerances {
     relative: 1e-8,
     absolute: 1e-8,
     max_steps: 100_000,
@@ -71,7 +71,7 @@ fn truth(range: (f64, f64)) -> Result<Truth, Box<dyn Error>> {
     let mut axes = parameters(range, 2)?;
     axes.push(release_angle()?);
     Ok(Truth::new(&axes, &HORIZONS, 150, |p, times| {
-        let states = plate(p).trajectory(&start(p[4]), times, ACCURACY);
+        let states = plate(p).trajectory(&start(p[4]), times, TOLERANCES);
         states.iter().map(|s| [s[4], 0.0]).collect()
     }))
 }
@@ -84,7 +84,7 @@ fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Erro
         let mut axes = parameters(range, 9)?;
         axes.push(release_angle()?);
         let model = |p: &[f64], times: &[f64], out: &mut [f64]| {
-            let states = plate(p).trajectory(&start(p[4]), times, ACCURACY);
+            let states = plate(p).trajectory(&start(p[4]), times, TOLERANCES);
             out.iter_mut()
                 .zip(states)
                 .for_each(|(out, state)| *out = state[4]);
@@ -108,7 +108,7 @@ fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Erro
 fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Errors, f64), Box<dyn Error>> {
     let model = |s: &[f64], p: &[f64], change: &mut [f64]| {
         let mut end = [s[0], s[1], s[2], s[3], 0.0, 0.0];
-        plate(p).advance(&mut end, STEP, ACCURACY);
+        plate(p).advance(&mut end, STEP, TOLERANCES);
         for k in 0..4 {
             change[k] = end[k] - s[k];
         }
@@ -164,7 +164,7 @@ fn rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
     let axes = [state()?, parameters(range, 4)?].concat();
     let (train, _) = cross(axes, 5, model, &params)?;
     let train = train.rounded(1e-6);
-    let loose = Accuracy {
+    let loose = Tolerances {
         relative: 1e-5,
         absolute: 1e-5,
         max_steps: 20_000,

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
 use rapier3d_immersed::reduced::axis::Axis;
 use rapier3d_immersed::reduced::cross::CrossParams;
-use rapier3d_immersed::reduced::dormand_prince::Accuracy;
+use rapier3d_immersed::reduced::dormand_prince::Tolerances;
 use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -84,7 +84,7 @@ fn forces(
     // The acceleration is linear in the coefficients.
     let axes = domain.body_axes(2, 4)?;
     let (separated, _) = SeparatedForces::bake(specimen, motions, speeds, axes, params)?;
-    let accuracy = Accuracy {
+    let tolerances = Tolerances {
         relative: 1e-6,
         absolute: 1e-6,
         max_steps: 50_000,
@@ -92,7 +92,7 @@ fn forces(
     Ok(truth.errors(|p, times| {
         let (angle, parameters) = p.split_last().expect("an angle");
         let orientation = specimen.orientation(*angle);
-        separated.positions(parameters, orientation, times, accuracy)
+        separated.positions(parameters, orientation, times, tolerances)
     }))
 }
 

@@ -7,7 +7,7 @@ use crate::free_fall::{Domain, Specimen};
 use rapier3d_immersed::ThesisLaw;
 use rapier3d_immersed::reduced::axis::Axis;
 use rapier3d_immersed::reduced::cross::CrossParams;
-use rapier3d_immersed::reduced::dormand_prince::Accuracy;
+use rapier3d_immersed::reduced::dormand_prince::Tolerances;
 use rapier3d_immersed::reduced::surrogate::TrajectorySurrogate;
 
 fn truth(specimen: &Specimen, domain: &Domain, horizons: &[f64], count: usize) -> Truth {
@@ -57,14 +57,14 @@ fn force_errors(
     let axes = domain.body_axes(2, 3).unwrap();
     let (forces, report) = SeparatedForces::bake(specimen, motions, speeds, axes, &params).unwrap();
     println!("{report:?}, ranks {:?}", forces.forces.ranks());
-    let accuracy = Accuracy {
+    let tolerances = Tolerances {
         relative: 1e-6,
         absolute: 1e-6,
         max_steps: 20_000,
     };
     let errors = truth(specimen, domain, horizons, 20).errors(|p, times| {
         let (angle, parameters) = p.split_last().unwrap();
-        forces.positions(parameters, specimen.orientation(*angle), times, accuracy)
+        forces.positions(parameters, specimen.orientation(*angle), times, tolerances)
     });
     println!("{}: forces {errors:?}", domain.name);
     errors.into_iter().map(|(_, error)| error).collect()

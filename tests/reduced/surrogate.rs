@@ -4,12 +4,12 @@
 use crate::errors::Truth;
 use rapier3d_immersed::reduced::axis::Axis;
 use rapier3d_immersed::reduced::cross::CrossParams;
-use rapier3d_immersed::reduced::dormand_prince::Accuracy;
+use rapier3d_immersed::reduced::dormand_prince::Tolerances;
 use rapier3d_immersed::reduced::falling_plate::FallingPlate;
 use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const ACCURACY: Accuracy = Accuracy {
+const TOLERANCES: Tolerances = Tolerances {
     relative: 1e-7,
     absolute: 1e-7,
     max_steps: 100_000,
@@ -38,7 +38,7 @@ fn truth(low: f64, high: f64, end: f64) -> Truth {
     let mut axes = parameters(low, high, 2);
     axes.push(Axis::spectral(0.5, 1.0, 2).unwrap());
     Truth::new(&axes, &[end], 60, |p, times| {
-        let states = plate(p).trajectory(&start(p[4]), times, ACCURACY);
+        let states = plate(p).trajectory(&start(p[4]), times, TOLERANCES);
         states.iter().map(|state| [state[4], 0.0]).collect()
     })
 }
@@ -48,7 +48,7 @@ fn trajectory_error(low: f64, high: f64, end: f64, max_evaluations: usize) -> f6
     let mut axes = parameters(low, high, 7);
     axes.push(Axis::spectral(0.5, 1.0, 9).unwrap());
     let model = |p: &[f64], times: &[f64], out: &mut [f64]| {
-        let states = plate(p).trajectory(&start(p[4]), times, ACCURACY);
+        let states = plate(p).trajectory(&start(p[4]), times, TOLERANCES);
         for (out, state) in out.iter_mut().zip(states) {
             *out = state[4];
         }
@@ -95,10 +95,10 @@ fn iterated_flow_maps_cross_the_transition() {
         plate(p).advance(
             &mut end,
             step,
-            Accuracy {
+            Tolerances {
                 relative: 1e-5,
                 absolute: 1e-5,
-                ..ACCURACY
+                ..TOLERANCES
             },
         );
         for k in 0..4 {
