@@ -59,7 +59,7 @@
 //! millimetre in 2 s, and any error grows alike. The default law's flow map is beyond 10⁵ samples because of its stall and
 //! its kinks at rest and at zero spin.
 //!
-//! The short-time forms take 10⁵ to 10⁶ samples and ten microseconds or more per step, more than the
+//! The short-time forms take 10⁵ to 1.5·10⁶ samples and ten microseconds or more per step, more than the
 //! plate's rates or a step of `FreeBody` cost: they pay only for dynamics that cost more.
 //!
 //! ```
