@@ -35,6 +35,7 @@ enum ModelName {
 
 /// Identify the coefficients of a falling body from its track.
 #[derive(Parser)]
+#[command(allow_negative_numbers = true)]
 struct Arguments {
     /// Which motion to look for.
     #[arg(long, value_enum, default_value = "plate")]
