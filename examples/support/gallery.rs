@@ -36,7 +36,12 @@ pub fn frames(scene: &Scene, recording: &Recording, summary: &Summary) -> String
 pub fn trajectories(scene: &Scene, immersed: &Recording, plain: Option<&Recording>) -> String {
     let side = |p: &Vec3| (p.x, p.y);
     let above = |p: &Vec3| (p.x, p.z);
-    let (wide, deep) = (1.6, 1.3);
+    let deep = 1.3;
+    // Wind carries the pieces off.
+    let farthest = ends(scene, immersed, above)
+        .iter()
+        .map(|((x, _), _)| x.abs());
+    let wide = farthest.fold(1.6, f64::max).min(6.0);
     let top = scene.pieces.iter().map(|p| p.release.y).fold(0.0, f64::max);
     let panel = |title, recording, view: fn(&Vec3) -> (f64, f64), axes, vertical| Panel {
         title,

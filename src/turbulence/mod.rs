@@ -24,5 +24,5 @@ pub use k_epsilon::{KEpsilon, TurbulenceState};
 pub use k_epsilon_grid::KEpsilonGrid;
 pub use langevin::{SeenFluctuation, kolmogorov_constant, relative_velocity_after, spin_increment};
 pub use noise::NoiseStream;
-pub use source::Turbulence;
+pub use source::{LangevinMode, Turbulence, TurbulentLayer};
 pub use table::{TurbulenceField, TurbulenceTable};
