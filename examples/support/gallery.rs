@@ -38,10 +38,9 @@ pub fn trajectories(scene: &Scene, immersed: &Recording, plain: Option<&Recordin
     let above = |p: &Vec3| (p.x, p.z);
     let deep = 1.3;
     // Wind carries the pieces off.
-    let farthest = ends(scene, immersed, above)
-        .iter()
-        .map(|((x, _), _)| x.abs());
-    let wide = farthest.fold(1.6, f64::max).min(6.0);
+    let ends_above = ends(scene, immersed, above);
+    let distances = ends_above.iter().map(|((x, _), _)| x.abs());
+    let wide = distances.fold(1.6, f64::max).min(6.0);
     let top = scene.pieces.iter().map(|p| p.release.y).fold(0.0, f64::max);
     let panel = |title, recording, view: fn(&Vec3) -> (f64, f64), axes, vertical| Panel {
         title,
