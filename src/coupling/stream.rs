@@ -6,8 +6,8 @@ use super::step::{Batch, RapierSets};
 use crate::flow::FlowSample;
 use crate::fluid::Fluid;
 use crate::turbulence::{
-    LangevinMode, NoiseStream, SeenFluctuation, Turbulence, TurbulenceState, TurbulentLayer,
-    kolmogorov_constant, relative_velocity_after, spin_increment,
+    Eddies, LangevinMode, NoiseStream, SeenFluctuation, Turbulence, TurbulenceState,
+    TurbulentLayer, kolmogorov_constant, relative_velocity_after, spin_increment,
 };
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::{Real, Vector};
@@ -44,12 +44,38 @@ const AVERAGED: Real = 10.0;
 /// The turbulence of one step.
 struct Step<'a> {
     layer: &'a TurbulentLayer,
-    /// State and C₀ where they are the same for all bodies.
-    common: Option<(TurbulenceState, Real)>,
+    /// The turbulence where it is the same for all bodies.
+    common: Option<Local>,
     viscosity: Real,
     time: f64,
     dt: Real,
     number: u64,
+}
+
+/// The turbulence at one place and time.
+#[derive(Clone, Copy)]
+struct Local {
+    state: TurbulenceState,
+    c0: Real,
+    eddies: Eddies,
+    /// Weight of this step in the average of the slip.
+    weight: Real,
+}
+
+impl Local {
+    fn new(state: TurbulenceState, viscosity: Real, dt: Real) -> Self {
+        let c0 = kolmogorov_constant(state.taylor_reynolds_squared(viscosity));
+        // A state of zero dissipation (or a wild one, from a table of the user's) stirs nothing.
+        let c0 = if c0.is_finite() { c0 } else { 0.0 };
+        let eddies = Eddies::new(&state, c0, dt);
+        let share = eddies.decay / AVERAGED;
+        Self {
+            state,
+            c0,
+            eddies,
+            weight: share / (1.0 + share),
+        }
+    }
 }
 
 /// What one step of turbulence does to a body.
@@ -65,10 +91,7 @@ impl<'a> Step<'a> {
     fn new(layer: &'a TurbulentLayer, fluid: &Fluid, time: f64, dt: Real, number: u64) -> Self {
         let viscosity = fluid.kinematic_viscosity();
         let common = match &layer.source {
-            Turbulence::Homogeneous(state) => {
-                let c0 = kolmogorov_constant(state.taylor_reynolds_squared(viscosity));
-                Some((*state, c0))
-            }
+            Turbulence::Homogeneous(state) => Some(Local::new(*state, viscosity, dt)),
             _ => None,
         };
         Self {
@@ -95,14 +118,10 @@ impl<'a> Step<'a> {
         let noise = NoiseStream::new(self.layer.seed, number);
         let first = stirred.since.is_none();
         let since = *stirred.since.get_or_insert(self.time);
-        let (state, c0) = self.common.unwrap_or_else(|| {
-            let age = self.time - since;
-            let state = self.layer.source.at(point, self.time, age);
-            let c0 = kolmogorov_constant(state.taylor_reynolds_squared(self.viscosity));
-            (state, c0)
+        let local = self.common.unwrap_or_else(|| {
+            let state = self.layer.source.at(point, self.time, self.time - since);
+            Local::new(state, self.viscosity, self.dt)
         });
-        // A state of zero dissipation (or a wild one, from a table of the user's) stirs nothing.
-        let c0 = if c0.is_finite() { c0 } else { 0.0 };
         let first_draw = noise.vector(self.number, 0);
         let mut gust = Gust {
             fluctuation: Vector::ZERO,
@@ -120,17 +139,17 @@ impl<'a> Step<'a> {
                 } else {
                     first_draw
                 };
-                let forgotten = self.dt * 0.75 * c0 * state.turnover_rate() / AVERAGED;
                 let slip = relative - stirred.fluctuation;
-                stirred.slip += (slip - stirred.slip) * (forgotten / (1.0 + forgotten));
-                let speed = stirred.slip.length();
-                gust.fluctuation = stirred.seen.advance(&state, c0, speed, self.dt, noise);
+                stirred.slip += (slip - stirred.slip) * local.weight;
+                let slip2 = stirred.slip.length_squared();
+                gust.fluctuation = stirred.seen.pass(&local.eddies, slip2, noise);
             }
             LangevinMode::BodyIncrements => {
-                let after = relative_velocity_after(relative, &state, c0, self.dt, first_draw);
+                let after =
+                    relative_velocity_after(relative, &local.state, local.c0, self.dt, first_draw);
                 gust.linear = after - relative;
                 let second = noise.vector(self.number, 1);
-                gust.angular = spin_increment(&state, c0, length, self.dt, second);
+                gust.angular = spin_increment(&local.state, local.c0, length, self.dt, second);
             }
         }
         let whole = gust.fluctuation + gust.linear + gust.angular;
@@ -221,9 +240,11 @@ impl Immersion {
                 let length = self.kinds[flyer.kind as usize].constants.length as Real;
                 let gust = step.stir(flyer.handle, &mut flight.stirred, *point, relative, length);
                 sample.velocity += gust.fluctuation;
-                let extra = extra_of(flyer, extras);
-                extra.linear = row(vector(extra.linear) + gust.linear);
-                extra.angular = row(vector(extra.angular) + gust.angular);
+                if step.layer.mode == LangevinMode::BodyIncrements {
+                    let extra = extra_of(flyer, extras);
+                    extra.linear = row(vector(extra.linear) + gust.linear);
+                    extra.angular = row(vector(extra.angular) + gust.angular);
+                }
             }
             immerse_in(sample, flyer, flight, extras);
         }
