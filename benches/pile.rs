@@ -1,5 +1,5 @@
-//! A pile of leaves under rapier's defaults and under [`preset::leaf_scale`]: time per step while it
-//! is dense and awake, its height, and when it sleeps. `cargo bench --bench pile`.
+//! A pile of leaves under rapier's defaults and under [`preset::leaf_scale`], with and without air: time
+//! per step while it is dense and awake, its height, and how it comes to rest. `cargo bench --bench pile`.
 
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, preset};
@@ -49,10 +49,16 @@ fn main() {
     let (leaves, seconds) = if quick { (50, 0.05) } else { (1000, 4.0) };
     println!(
         "{leaves} leaves, solid stack {:.1} mm",
-        2.0 * HALF[1] * 1e3 * leaves as Real * 0.06
+        8.0 * HALF[0] * HALF[1] * HALF[2] / (0.4 * 0.4) * 1e3 * leaves as Real
     );
-    for leaf_scale in [false, true] {
+    let runs = [
+        ("rapier's defaults, 60 Hz", false, true),
+        ("leaf_scale, 240 Hz", true, true),
+        ("leaf_scale without the fluid", true, false),
+    ];
+    for (name, leaf_scale, fluid) in runs {
         let (mut world, mut immersion, handles) = pile(leaves, leaf_scale);
+        immersion.set_enabled(fluid);
         let steps = (seconds / world.integration_parameters.dt) as usize;
         let mut times = Vec::with_capacity(steps);
         let mut asleep = None;
@@ -73,15 +79,16 @@ fn main() {
             .map(|handle| world.bodies[*handle].translation().y * 1e3)
             .collect();
         heights.sort_by(Real::total_cmp);
+        let squares = handles
+            .iter()
+            .map(|handle| world.bodies[*handle].linvel().length_squared());
+        let speed = (squares.sum::<Real>() / leaves as Real).sqrt();
         println!(
-            "{}: {:.1} ms/step awake (median), height of the pile {:.1} mm (95th percentile), {}",
-            if leaf_scale {
-                "leaf_scale, 240 Hz"
-            } else {
-                "rapier's defaults, 60 Hz"
-            },
+            "{name}: {:.1} ms/step awake (median), height {:.1} mm (95th percentile), moving at \
+             {:.2} mm/s (root mean square) at the end, {}",
             middle[middle.len() / 2],
             heights[leaves * 95 / 100],
+            speed * 1e3,
             asleep.map_or("not asleep".to_owned(), |t| format!(
                 "asleep after {t:.1} s"
             )),

@@ -124,6 +124,8 @@ pub(super) struct FlightState {
     pub end_angular: Vector,
     /// Mass that rapier's solver uses, kg.
     pub solver_mass: Real,
+    /// Steps in a row whose contacts have been corrected.
+    pub contact: u8,
     /// Velocity of the fluid in the last step, m/s, with its fluctuation.
     pub stream: Vector,
     pub stirred: Stirred,

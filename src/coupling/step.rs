@@ -90,6 +90,11 @@ const ROUNDING: Real = 2e-6;
 /// Change of the solver's mass near contacts that is worth telling rapier.
 const MASS_CHANGE: Real = 0.02;
 
+/// Steps of a contact that count as its impact: what the contact did is corrected in these. A velocity
+/// that is set after the step is new to the solver; in a pile of leaves such corrections kept up 2 cm/s
+/// forever, where without them it comes to rest below 1 mm/s.
+const IMPACT: u8 = 3;
+
 #[derive(Clone, Copy)]
 struct Borrowed {
     handle: RigidBodyHandle,
@@ -178,17 +183,23 @@ impl Immersion {
             body.reset_torques(false);
             body.add_force(borrowed.force, false);
             body.add_torque(borrowed.torque, false);
-            if !borrowed.touching {
-                continue;
-            }
-            let Some(slot) = &self.slots[borrowed.slot as usize] else {
+            let Some(slot) = &mut self.slots[borrowed.slot as usize] else {
                 continue;
             };
+            let flight = &mut slot.flight;
+            if !borrowed.touching {
+                flight.contact = 0;
+                continue;
+            }
+            if flight.contact >= IMPACT {
+                continue;
+            }
             let kind = &self.kinds[slot.kind as usize];
-            let mass = slot.flight.solver_mass.into();
+            let mass = flight.solver_mass.into();
             if let Some((linear, angular)) =
                 contact::correction(kind, body, sets.narrow_phase, mass)
             {
+                flight.contact += 1;
                 body.set_linvel(body.linvel() + linear, false);
                 body.set_angvel(body.angvel() + angular, false);
             }
