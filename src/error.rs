@@ -168,6 +168,10 @@ pub enum Error {
         value: f64,
     },
 
+    /// The samples to cluster take fewer than four different values.
+    #[error("the samples cannot be divided into four clusters: they take too few values")]
+    TooFewClusters,
+
     /// The bytes do not start like a file of the expected kind.
     #[error("not a {file} file")]
     WrongFileKind {

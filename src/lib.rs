@@ -12,7 +12,9 @@ pub mod fluid;
 pub mod geometry;
 pub mod hydro;
 mod math;
+pub mod motion;
 pub mod reduced;
+pub mod training;
 pub mod turbulence;
 
 pub use body::{DryMass, ImmersedBody};

@@ -5,7 +5,7 @@ use super::kirchhoff::{Twist, cross};
 use crate::body::{BodyConstants, LawConstants};
 use crate::hydro::viscous::{Evaluate, ViscousTerms};
 use crate::math::to_real;
-use rapier3d::math::Vector;
+use rapier3d::math::{Real, Vector};
 use rapier3d::na::{UnitQuaternion, Vector3};
 
 /// A force, N, and its moment about the center of mass, N·m, world axes.
@@ -24,6 +24,17 @@ impl std::ops::Add for ForceAndTorque {
         Self {
             force: self.force + other.force,
             torque: self.torque + other.torque,
+        }
+    }
+}
+
+impl std::ops::Mul<f64> for ForceAndTorque {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self {
+            force: self.force * factor as Real,
+            torque: self.torque * factor as Real,
         }
     }
 }

@@ -1,0 +1,14 @@
+//! Motion patterns: their names, how to tell them apart, and how they follow each other (thesis
+//! chapters 3 and 5).
+
+pub mod classify;
+pub mod numbers;
+pub mod pattern;
+pub mod phase_diagram;
+pub mod trajectory;
+
+pub use classify::{Classifier, Observation};
+pub use numbers::{Numbers, Outline};
+pub use pattern::{Pattern, Regime};
+pub use phase_diagram::PhaseDiagram;
+pub use trajectory::{Moment, Spread, Trajectory};
