@@ -51,6 +51,11 @@ impl FreeBody {
         })
     }
 
+    /// Mass of the body itself, kg.
+    pub fn mass(&self) -> f64 {
+        self.constants.dry.mass
+    }
+
     /// Orientation of the body's frame.
     pub fn orientation(&self) -> UnitQuaternion<f64> {
         self.attitude * UnitQuaternion::from_rotation_matrix(&self.constants.axes).inverse()

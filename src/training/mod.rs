@@ -7,6 +7,7 @@
 //! [`Classifier`](crate::motion::Classifier).
 
 pub mod cluster;
+pub mod energy;
 pub mod experiment;
 #[cfg(feature = "serde-serialize")]
 mod file;
@@ -15,6 +16,7 @@ pub mod subspace;
 pub mod sweep;
 
 pub use cluster::Clusters;
+pub use energy::EnergyObjective;
 pub use experiment::{Experiment, Release, thin_ellipsoid};
 pub use grid::{Axis, Grid};
 pub use subspace::Subspaces;
