@@ -12,6 +12,7 @@ pub mod experiment;
 #[cfg(feature = "serde-serialize")]
 mod file;
 pub mod grid;
+pub mod planner;
 pub mod subspace;
 pub mod sweep;
 
@@ -19,5 +20,6 @@ pub use cluster::Clusters;
 pub use energy::EnergyObjective;
 pub use experiment::{Experiment, Release, thin_ellipsoid};
 pub use grid::{Axis, Grid};
+pub use planner::{DwellReport, Plan, Planner, PlannerParams};
 pub use subspace::Subspaces;
 pub use sweep::{Sample, Sweep};
