@@ -18,7 +18,7 @@ pub mod training;
 pub mod turbulence;
 
 pub use body::{DryMass, ImmersedBody};
-pub use coupling::{Immersion, RapierSets, Warning, preset};
+pub use coupling::{Immersion, OnContact, RapierSets, Warning, preset};
 pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;

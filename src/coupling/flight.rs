@@ -8,6 +8,7 @@ use crate::dynamics::integrate::{Inviscid, Load, Motion, advance, rotate, rotate
 use crate::dynamics::kirchhoff::Twist;
 use crate::hydro::viscous::Evaluate;
 use crate::hydro::viscous::physical::{PhysicalConstants, PlatesOnly};
+use crate::hydro::viscous::scaled::Scaled;
 use crate::hydro::viscous::stochastic::StochasticConstants;
 use crate::hydro::viscous::thesis::ThesisConstants;
 use crate::math::{LANES, Lanes};
@@ -30,6 +31,8 @@ pub(super) struct Flyer {
     /// Mass that rapier's solver uses, kg; `new_mass` if rapier has to be told.
     pub solver_mass: f32,
     pub new_mass: bool,
+    /// Factors on the law's drag, rotational lift and translational lift.
+    pub control: [f32; 3],
 
     /// Attitude (plate axes to world; x, y, z, w) as integrated; out: at the end of the step.
     pub attitude: [f32; 4],
@@ -197,6 +200,10 @@ fn fly_four<const SYMMETRIC: bool>(
             angular: kept.angular + rotate_back(&attitude, &(vector(|f| f.angular) * scale.length)),
         },
         rate: twist(|f| f.rate),
+    };
+    let law = &Scaled {
+        law,
+        factors: side_by_side(four.map(|f| f.control)),
     };
     let count = substeps(&inertia, &motion, &load, dt, &clock.integrator);
     let most = count.0.to_array().into_iter().fold(1.0, f32::max) as u32;

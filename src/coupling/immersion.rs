@@ -2,10 +2,12 @@
 
 use super::kind::Kind;
 use super::original::Original;
+use super::playback::Player;
 use crate::body::ImmersedBody;
 use crate::dynamics::Integrator;
 use crate::flow::Flow;
 use crate::fluid::Fluid;
+use crate::motion::ControlSeries;
 use crate::{DryMass, Error};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::ColliderSet;
@@ -56,6 +58,9 @@ pub struct Immersion {
     pub(super) free: Vec<u32>,
     pub(super) warnings: Vec<Warning>,
     pub(super) sweep: u32,
+    /// Bodies that replay a series, and the series.
+    pub(super) players: Vec<Player>,
+    pub(super) series: Vec<ControlSeries>,
     /// Whether bodies may have to enter or leave the fluid.
     #[cfg_attr(feature = "serde-serialize", serde(skip, default = "yes"))]
     pub(super) changed: bool,
@@ -84,6 +89,10 @@ pub(super) struct Slot {
     pub handle: RigidBodyHandle,
     pub description: u32,
     pub enabled: bool,
+    /// Whether the body touched or was held by something in the last step.
+    pub touching: bool,
+    /// Factors on the law's drag, rotational lift and translational lift.
+    pub control: [f32; 3],
     /// What rapier's body was before; `None` while it is not immersed.
     pub original: Option<Box<Original>>,
     /// Index of the kind; found again after loading a snapshot.
@@ -202,6 +211,8 @@ impl Immersion {
             free: Vec::new(),
             warnings: Vec::new(),
             sweep: 0,
+            players: Vec::new(),
+            series: Vec::new(),
             changed: false,
             flow: None,
             kinds: Vec::new(),
@@ -268,6 +279,8 @@ impl Immersion {
             handle,
             description,
             enabled: true,
+            touching: false,
+            control: [1.0; 3],
             original: None,
             kind: NONE,
             flight: FlightState::default(),

@@ -7,9 +7,11 @@ mod handover;
 mod immersion;
 mod kind;
 mod original;
+mod playback;
 pub mod preset;
 mod readout;
 mod step;
 
 pub use immersion::{Immersion, Warning};
+pub use playback::OnContact;
 pub use step::RapierSets;

@@ -28,7 +28,7 @@ impl Immersion {
         let (stream, vorticity) = sample.unwrap_or_default();
         let plate = |v: &[f32]| Vector3::new(v[0].into(), v[1].into(), v[2].into());
         let rate = &slot.flight.rate;
-        Some(c.forces(&Instant {
+        let forces = c.forces(&Instant {
             attitude,
             velocity: Twist {
                 linear: attitude.inverse() * to_f64(body.linvel() - stream),
@@ -39,6 +39,7 @@ impl Immersion {
                 angular: plate(&rate[3..]),
             },
             gravity: to_f64(self.gravity * body.gravity_scale()),
-        }))
+        });
+        Some(forces.weighted(slot.control.map(f64::from)))
     }
 }

@@ -114,6 +114,7 @@ impl Immersion {
         scratch.flyers.iter_mut().for_each(Vec::clear);
         scratch.borrowed.clear();
         if self.enabled && dt > 0.0 {
+            self.advance_players(dt.into());
             // Rapier lists a body as active only once it has stepped it: newcomers go first.
             self.newcomers
                 .sort_unstable_by_key(|handle| handle.into_raw_parts());
@@ -389,6 +390,7 @@ impl Immersion {
             goes_on,
             solver_mass: if new_mass { wanted } else { solver_mass },
             new_mass,
+            control: slot.control,
             attitude: attitude.to_array(),
             velocity,
             rate,
@@ -525,6 +527,7 @@ impl Immersion {
             original.set_mass(kind, mass, flyer.handle, sets.bodies, sets.colliders);
             slot.flight.solver_mass = flyer.solver_mass;
         }
+        slot.touching = flyer.may_sleep;
         slot.flight.attitude = flyer.attitude;
         slot.flight.velocity = flyer.velocity;
         slot.flight.rate = flyer.rate;

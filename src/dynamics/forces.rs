@@ -63,6 +63,18 @@ pub struct ForceBreakdown {
     pub angle_of_attack: f32,
 }
 
+impl ForceBreakdown {
+    /// With factors on drag, rotational lift and translational lift.
+    pub(crate) fn weighted(self, [drag, rotational, translational]: [f64; 3]) -> Self {
+        Self {
+            drag: self.drag * drag,
+            rotational_lift: self.rotational_lift * rotational,
+            translational_lift: self.translational_lift * translational,
+            ..self
+        }
+    }
+}
+
 /// The state that forces depend on.
 pub(crate) struct Instant {
     /// Plate axes to world.

@@ -174,19 +174,13 @@ impl FreeBody {
 
     /// The components of the force on the body in a fluid at rest under `gravity`, m/s².
     pub fn forces(&self, gravity: Vector3<f64>) -> ForceBreakdown {
-        let forces = self.constants.forces(&Instant {
+        let instant = Instant {
             attitude: self.attitude,
             velocity: self.velocity,
             rate: self.rate,
             gravity,
-        });
-        let [drag, rotational, translational] = self.control;
-        ForceBreakdown {
-            drag: forces.drag * drag,
-            rotational_lift: forces.rotational_lift * rotational,
-            translational_lift: forces.translational_lift * translational,
-            ..forces
-        }
+        };
+        self.constants.forces(&instant).weighted(self.control)
     }
 
     /// Momentum of body and fluid in plate axes, kg·m/s and kg·m²/s.
