@@ -6,8 +6,10 @@ use crate::dynamics::{FreeBody, Integrator};
 use crate::fluid::Fluid;
 use crate::geometry::{Ellipsoid, Surface};
 use crate::hydro::{HydroProperties, ThesisLaw, ViscousLaw};
+use crate::math::to_rotation;
 use crate::motion::{Moment, Trajectory};
 use rapier3d::geometry::SharedShape;
+use rapier3d::math::Rotation;
 use rapier3d::na::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
 /// How a body is let go. World axes, y up; lying flat its normal is y and its long axis x.
@@ -52,6 +54,11 @@ impl Release {
         let axis = Unit::new_unchecked(Vector3::new(sine, 0.0, -cosine));
         let tilt = Rotation3::from_axis_angle(&axis, self.tilt);
         UnitQuaternion::from_rotation_matrix(&(tilt * level * hydro.planform.axes.inverse()))
+    }
+
+    /// The same as rapier's rotation, for a body whose frame `hydro` refers to.
+    pub fn rotation(&self, hydro: &HydroProperties) -> Rotation {
+        to_rotation(self.orientation(hydro))
     }
 
     /// # Errors

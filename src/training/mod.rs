@@ -17,7 +17,7 @@ pub mod subspace;
 pub mod sweep;
 
 pub use cluster::Clusters;
-pub use energy::EnergyObjective;
+pub use energy::{ControlBox, EnergyObjective};
 pub use experiment::{Experiment, Release, thin_ellipsoid};
 pub use grid::{Axis, Grid};
 pub use planner::{DwellReport, Plan, Planner, PlannerParams};

@@ -47,9 +47,9 @@ pub struct PlannerParams {
     /// axis (default 1). Infinite leaves the whole subspace to the optimisation, as in the thesis;
     /// strong turbulence then drives c̃ from one end of it to the other at every interval.
     pub reach: f64,
-    /// Anchors that are tried for a dwell (default 24).
+    /// Anchors that are tried for a dwell (default 32).
     pub tries: u32,
-    /// Shaken copies of the release that must show the pattern, too (default 3).
+    /// Shaken copies of the release that must show the pattern, too (default 5).
     pub shaken: usize,
     /// By how much they are turned, rad (default 0.03).
     pub shake: f64,
@@ -71,8 +71,8 @@ impl Default for PlannerParams {
             longest_dwell: 3.0,
             turn_tolerance: TurnFinder::TOLERANCE,
             reach: 1.0,
-            tries: 24,
-            shaken: 3,
+            tries: 32,
+            shaken: 5,
             shake: 0.03,
             turbulence: None,
             classifier: Classifier::default(),

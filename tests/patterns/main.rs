@@ -1,0 +1,5 @@
+//! Motion patterns: training, planning and playback, end to end.
+
+mod annealing;
+mod sequences;
+mod support;
