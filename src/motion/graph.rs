@@ -274,10 +274,10 @@ mod tests {
             })
             .collect();
         let estimate = MotionGraph::estimate(&sequences, 4).unwrap();
-        for from in 0..4 {
+        for (from, visits) in visits.into_iter().enumerate() {
             for to in 0..4 {
                 let p = graph.probability(from, to);
-                let deviation = (p * (1.0 - p) / visits[from]).sqrt();
+                let deviation: f64 = (p * (1.0 - p) / visits).sqrt();
                 let error = (estimate.probability(from, to) - p).abs();
                 assert!(error <= 5.0 * deviation, "{from} {to}: {error} {deviation}");
             }
