@@ -132,6 +132,8 @@ scalar_struct! {
         m12_xx, m12_xy, m12_xz, m12_yx, m12_yy, m12_yz, m12_zx, m12_zy, m12_zz,
         /// 𝕄₂₂ = I + ρA₂₂, upper triangle.
         m22_xx, m22_xy, m22_xz, m22_yy, m22_yz, m22_zz,
+        /// Inverses of the diagonals of 𝕄₁₁ and 𝕄₂₂.
+        per_m11_xx, per_m11_yy, per_m11_zz, per_m22_xx, per_m22_yy, per_m22_zz,
         /// The body's own mass.
         dry_mass,
         /// Share of the added mass' coupling that is felt.
@@ -218,6 +220,12 @@ impl BodyConstants {
             m22_yy: m22[(1, 1)],
             m22_yz: m22[(1, 2)],
             m22_zz: m22[(2, 2)],
+            per_m11_xx: 1.0 / m11[(0, 0)],
+            per_m11_yy: 1.0 / m11[(1, 1)],
+            per_m11_zz: 1.0 / m11[(2, 2)],
+            per_m22_xx: 1.0 / m22[(0, 0)],
+            per_m22_yy: 1.0 / m22[(1, 1)],
+            per_m22_zz: 1.0 / m22[(2, 2)],
             dry_mass: dry.mass / mass,
             munk: body.law.munk_factor(),
             center_x: center.x,

@@ -3,29 +3,28 @@
 
 use crate::Outcome;
 use crate::chart::{COLORS, Mark, Panel, SeriesLabelPosition, draw};
+use crate::errors::{Errors, Truth};
+use crate::free_fall::Domain;
+use crate::own_horizon::{self, Curves, FLOW_MAP, TRAJECTORY};
 use indicatif::ProgressBar;
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64;
 use rapier3d_immersed::reduced::axis::Axis;
 use rapier3d_immersed::reduced::cross::{CrossParams, cross};
-use rapier3d_immersed::reduced::dormand_prince::{Accuracy, integrate};
+use rapier3d_immersed::reduced::dormand_prince::{Tolerances, integrate};
 use rapier3d_immersed::reduced::falling_plate::FallingPlate;
 use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 use std::time::Instant;
 
-const ACCURACY: Accuracy = Accuracy {
+const TOLERANCES: Tolerances = Tolerances {
     relative: 1e-8,
     absolute: 1e-8,
     max_steps: 100_000,
 };
 const HORIZONS: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
 const STEP: f64 = 0.25;
-
-/// Horizon and error.
-type Errors = Vec<(f64, f64)>;
 
 fn plate(p: &[f64]) -> FallingPlate {
     FallingPlate::with_coefficients(p[3], [p[0], p[1], p[2], 1.0, 0.2])
@@ -68,49 +67,13 @@ fn reduced(x: &[f64]) -> ([f64; 4], f64) {
     ([sign * x[0], sign * x[1], x[2], x[3] - turns * PI], sign)
 }
 
-/// Samples of the domain and their true horizontal positions at the horizons.
-struct Truth {
-    points: Vec<Vec<f64>>,
-    positions: Vec<Vec<f64>>,
-}
-
-impl Truth {
-    fn new(range: (f64, f64)) -> Result<Self, Box<dyn Error>> {
-        let mut random = Pcg64::seed_from_u64(7);
-        let mut axes = parameters(range, 2)?;
-        axes.push(release_angle()?);
-        let mut point = || {
-            axes.iter()
-                .map(|a| random.random_range(a.start()..a.end()))
-                .collect()
-        };
-        let points: Vec<Vec<f64>> = (0..150).map(|_| point()).collect();
-        let positions = points.iter().map(|p| {
-            let states = plate(p).trajectory(&start(p[4]), &HORIZONS, ACCURACY);
-            states.iter().map(|s| s[4]).collect()
-        });
-        Ok(Self {
-            positions: positions.collect(),
-            points,
-        })
-    }
-
-    /// Error at each horizon relative to the standard deviation of the position over the domain.
-    fn errors(&self, mut positions: impl FnMut(&[f64]) -> Vec<f64>) -> Errors {
-        let all: Vec<Vec<f64>> = self.points.iter().map(|p| positions(p)).collect();
-        let error = |(h, horizon): (usize, &f64)| {
-            let exact: Vec<f64> = self.positions.iter().map(|p| p[h]).collect();
-            let mean = exact.iter().sum::<f64>() / exact.len() as f64;
-            let spread: f64 = exact.iter().map(|x| (x - mean).powi(2)).sum();
-            let squares: f64 = exact
-                .iter()
-                .zip(&all)
-                .map(|(x, p)| (p[h] - x).powi(2))
-                .sum();
-            (*horizon, (squares / spread).sqrt())
-        };
-        HORIZONS.iter().enumerate().map(error).collect()
-    }
+fn truth(range: (f64, f64)) -> Result<Truth, Box<dyn Error>> {
+    let mut axes = parameters(range, 2)?;
+    axes.push(release_angle()?);
+    Ok(Truth::new(&axes, &HORIZONS, 150, |p, times| {
+        let states = plate(p).trajectory(&start(p[4]), times, TOLERANCES);
+        states.iter().map(|s| [s[4], 0.0]).collect()
+    }))
 }
 
 /// One surrogate of whole trajectories per horizon, each with the same budget.
@@ -121,7 +84,7 @@ fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Erro
         let mut axes = parameters(range, 9)?;
         axes.push(release_angle()?);
         let model = |p: &[f64], times: &[f64], out: &mut [f64]| {
-            let states = plate(p).trajectory(&start(p[4]), times, ACCURACY);
+            let states = plate(p).trajectory(&start(p[4]), times, TOLERANCES);
             out.iter_mut()
                 .zip(states)
                 .for_each(|(out, state)| *out = state[4]);
@@ -132,7 +95,10 @@ fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Erro
             ..CrossParams::default()
         };
         let (surrogate, _) = TrajectorySurrogate::bake(time, 1, axes, model, &params)?;
-        let all = truth.errors(|p| surrogate.evaluate(p, &HORIZONS));
+        let all = truth.errors(|p, times| {
+            let positions = surrogate.evaluate(p, times);
+            positions.iter().map(|x| [*x, 0.0]).collect()
+        });
         errors.push(all[h]);
     }
     Ok(errors)
@@ -142,7 +108,7 @@ fn trajectories(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Erro
 fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Errors, f64), Box<dyn Error>> {
     let model = |s: &[f64], p: &[f64], change: &mut [f64]| {
         let mut end = [s[0], s[1], s[2], s[3], 0.0, 0.0];
-        plate(p).advance(&mut end, STEP, ACCURACY);
+        plate(p).advance(&mut end, STEP, TOLERANCES);
         for k in 0..4 {
             change[k] = end[k] - s[k];
         }
@@ -158,7 +124,7 @@ fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Errors, f64), Box<dyn E
     let (map, _) = FlowMap::bake(STEP, state()?, parameters(range, 4)?, 1, model, &params)?;
     let mut scratch = Vec::new();
     let (mut steps, clock) = (0, Instant::now());
-    let errors = truth.errors(|p| {
+    let errors = truth.errors(|p, _| {
         let mut x = start(p[4]);
         let mut change = [0.0; 5];
         let mut positions = Vec::new();
@@ -170,7 +136,7 @@ fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Errors, f64), Box<dyn E
             }
             steps += 1;
             if HORIZONS.iter().any(|h| (h - i as f64 * STEP).abs() < 1e-9) {
-                positions.push(x[4]);
+                positions.push([x[4], 0.0]);
             }
         }
         positions
@@ -198,13 +164,13 @@ fn rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
     let axes = [state()?, parameters(range, 4)?].concat();
     let (train, _) = cross(axes, 5, model, &params)?;
     let train = train.rounded(1e-6);
-    let loose = Accuracy {
+    let loose = Tolerances {
         relative: 1e-5,
         absolute: 1e-5,
         max_steps: 20_000,
     };
     let mut scratch = Vec::new();
-    Ok(truth.errors(|p| {
+    Ok(truth.errors(|p, _| {
         let mut x = [0.0; 5];
         x[..4].copy_from_slice(&start(p[4])[..4]);
         let mut now = 0.0;
@@ -219,58 +185,75 @@ fn rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
         for horizon in HORIZONS {
             integrate(&mut rate, now, horizon, &mut x, loose);
             now = horizon;
-            positions.push(x[4]);
+            positions.push([x[4], 0.0]);
         }
         positions
     }))
 }
 
+const RATES: &str = "separated rates, integrated";
+
+fn panel(name: &str, unit: &str, curves: &Curves) -> Panel {
+    let mut panel = Panel::new(
+        name,
+        &format!("horizon T{unit}"),
+        "error of position(T) / its spread over the domain",
+    );
+    (panel.log_x, panel.log_y) = (true, true);
+    for (label, errors) in curves {
+        let color = match *label {
+            TRAJECTORY => COLORS[0],
+            FLOW_MAP => COLORS[1],
+            _ => COLORS[2],
+        };
+        panel.add(label, color, Mark::LineAndDots, errors.clone());
+    }
+    panel.legend = Some(SeriesLabelPosition::LowerRight);
+    panel
+}
+
+/// The plate of this module, and the crate's own dynamics beside it: within one pattern above, across
+/// the boundary of two below.
 pub fn horizon(path: &Path, bar: &ProgressBar) -> Outcome {
     let mut panels = Vec::new();
     let mut numbers = serde_json::Map::new();
-    for (name, range) in [
-        ("flutter, I* .45 to .55", (0.45, 0.55)),
-        ("across the transition, I* 1.1 to 1.4", (1.1, 1.4)),
+    for (name, range, own) in [
+        (
+            "planar model: flutter, I* .45 to .55",
+            (0.45, 0.55),
+            [Domain::FLUTTER, Domain::ZIGZAG],
+        ),
+        (
+            "planar model: across tumbling, I* 1.1 to 1.4",
+            (1.1, 1.4),
+            [Domain::TUMBLING, Domain::AUTOROTATION],
+        ),
     ] {
-        let truth = Truth::new(range)?;
+        let truth = truth(range)?;
         bar.set_message(format!("{name}: trajectories"));
         let trajectories = trajectories(range, &truth)?;
         bar.set_message(format!("{name}: flow map"));
         let (flow_map, microseconds) = flow_map(range, &truth)?;
         bar.set_message(format!("{name}: rates"));
         let rates = rates(range, &truth)?;
-        numbers.insert(
-            name.into(),
-            serde_json::json!({ "trajectories": trajectories, "flow_map": flow_map, "rates": rates,
-                "flow_map_microseconds_per_step": microseconds }),
-        );
-        let mut panel = Panel::new(
-            name,
-            "horizon T",
-            "error of x(T) / its spread over the domain",
-        );
-        (panel.log_x, panel.log_y) = (true, true);
-        panel.add(
-            "separated trajectory",
-            COLORS[0],
-            Mark::LineAndDots,
-            trajectories,
-        );
-        panel.add(
-            "separated flow map, iterated",
-            COLORS[1],
-            Mark::LineAndDots,
-            flow_map,
-        );
-        panel.add(
-            "separated rates, integrated",
-            COLORS[2],
-            Mark::LineAndDots,
-            rates,
-        );
-        panel.legend = Some(SeriesLabelPosition::LowerRight);
-        panels.push(panel);
+        let curves = vec![
+            (TRAJECTORY, trajectories),
+            (FLOW_MAP, flow_map),
+            (RATES, rates),
+        ];
+        let [water, air] = own;
+        for (name, unit, curves) in [
+            (name, ", dimensionless", curves),
+            (water.name, ", s", own_horizon::plate(&water, bar)?),
+            (air.name, ", s", own_horizon::card(&air, bar)?),
+        ] {
+            panels.push(panel(name, unit, &curves));
+            let curves: BTreeMap<&str, Errors> = curves.into_iter().collect();
+            numbers.insert(name.into(), serde_json::json!(curves));
+        }
+        let key = format!("{name}: flow map, microseconds per step");
+        numbers.insert(key, microseconds.into());
     }
-    draw(path, 2, &panels)?;
+    draw(path, 3, &panels)?;
     Ok(numbers.into())
 }

@@ -1,8 +1,12 @@
 //! Draws the examples of thesis §6.4 (its Figs. 6.2 to 6.8) and what separated surrogates of a
-//! falling plate are worth, error against horizon.
+//! falling plate and of the crate's own dynamics are worth, error against horizon.
 
 mod chart;
+mod errors;
+mod force_coefficients;
+mod free_fall;
 mod horizon;
+mod own_horizon;
 mod thesis;
 
 use clap::Parser;

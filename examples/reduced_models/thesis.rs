@@ -6,7 +6,7 @@ use indicatif::ProgressBar;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d_immersed::reduced::axis::Axis;
-use rapier3d_immersed::reduced::dormand_prince::Accuracy;
+use rapier3d_immersed::reduced::dormand_prince::Tolerances;
 use rapier3d_immersed::reduced::evolution::{Coupling, EvolutionParams, evolve};
 use rapier3d_immersed::reduced::example_systems::{
     coupled_triple, falling_body, falling_body_solution, kirchhoff_ellipsoid, linear,
@@ -18,13 +18,13 @@ use rapier3d_immersed::reduced::separated::Separated;
 use std::path::Path;
 use std::time::Instant;
 
-const TIGHT: Accuracy = Accuracy {
+const TIGHT: Tolerances = Tolerances {
     relative: 1e-10,
     absolute: 1e-11,
     max_steps: 100_000,
 };
 /// What a reference solver needs to be as accurate as the baked model.
-const USUAL: Accuracy = Accuracy {
+const USUAL: Tolerances = Tolerances {
     relative: 1e-4,
     absolute: 1e-4,
     max_steps: 100_000,

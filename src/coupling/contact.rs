@@ -13,16 +13,17 @@ use rapier3d::math::{Real, Vector};
 use rapier3d::na::Vector6;
 use rapier3d::parry::query::contact;
 
-/// The contacts of a body as the narrow phase last saw them.
-fn pairs<'a>(
-    body: &'a RigidBody,
+/// Visits the contacts of a body as the narrow phase last saw them.
+fn for_each_pair<'a>(
+    body: &RigidBody,
     narrow_phase: &'a NarrowPhase,
-) -> impl Iterator<Item = (ColliderHandle, &'a ContactPair)> + 'a {
-    body.colliders().iter().flat_map(move |collider| {
+    mut visit: impl FnMut(ColliderHandle, &'a ContactPair),
+) {
+    for collider in body.colliders() {
         narrow_phase
             .contact_pairs_with(*collider)
-            .map(move |pair| (*collider, pair))
-    })
+            .for_each(|pair| visit(*collider, pair));
+    }
 }
 
 /// The normal of the contacts that the body has or is about to have, weighted by their impulses;
@@ -45,9 +46,9 @@ pub(super) fn normal(
         sum += normal * (sign * weight);
         touching = true;
     };
-    for (_, pair) in pairs(body, narrow_phase) {
+    for_each_pair(body, narrow_phase, |_, pair| {
         let Some(contacts) = pair.rigid() else {
-            continue;
+            return;
         };
         let mut met = false;
         for manifold in contacts.solver_manifolds() {
@@ -63,7 +64,7 @@ pub(super) fn normal(
         {
             add(normal, 1e-12);
         }
-    }
+    });
     touching.then(|| sum.normalize_or(Vector::Y))
 }
 
@@ -111,9 +112,9 @@ pub(super) fn correction(
     solver_mass: f64,
 ) -> Option<(Vector, Vector)> {
     let (mut impulse, mut moment) = (Vector::ZERO, Vector::ZERO);
-    for (collider, pair) in pairs(body, narrow_phase) {
+    for_each_pair(body, narrow_phase, |collider, pair| {
         let Some(contacts) = pair.rigid() else {
-            continue;
+            return;
         };
         let first = pair.collider1 == collider;
         for manifold in contacts.solver_manifolds() {
@@ -131,7 +132,7 @@ pub(super) fn correction(
                 moment += lever.cross(push);
             }
         }
-    }
+    });
     if impulse == Vector::ZERO {
         return None;
     }

@@ -1,5 +1,6 @@
 //! The set of immersed bodies.
 
+use super::flight::Integrated;
 use super::kind::Kind;
 use super::original::Original;
 use super::playback::Player;
@@ -35,7 +36,7 @@ use std::sync::Arc;
 /// Kinematic bodies are left alone until they become dynamic.
 ///
 /// # Memory
-/// About 400 bytes per body, besides what equal bodies share, and as much again while it is awake.
+/// About 460 bytes per body, besides what equal bodies share.
 ///
 /// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
 #[derive(Clone)]
@@ -118,12 +119,8 @@ fn no_kind() -> u32 {
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub(super) struct FlightState {
-    /// Attitude as integrated (plate axes to world); rapier's follows it to third order.
-    pub attitude: [f32; 4],
-    /// Velocity as integrated, plate axes (u then w = ωL), relative to the fluid.
-    pub velocity: [f32; 6],
-    /// dν/dt of the last substep, plate axes.
-    pub rate: [f32; 6],
+    /// As integrated; rapier's attitude follows it to third order.
+    pub motion: Integrated,
     /// The velocities that rapier shall have after its step if nothing interferes.
     pub end_linear: Vector,
     pub end_angular: Vector,
@@ -438,7 +435,7 @@ mod tests {
     #[test]
     fn bytes_per_body() {
         let kept = size_of::<Slot>() + size_of::<Original>() + 64;
-        assert!(kept <= 450, "{kept}");
-        assert!(size_of::<super::super::flight::Flyer>() <= 400);
+        assert!(kept <= 480, "{kept}");
+        assert!(size_of::<super::super::flight::Flyer>() <= 120);
     }
 }

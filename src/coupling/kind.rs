@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::body::{BodyConstants, DryMass, ImmersedBody, InertiaConstants, LawConstants};
+use crate::dynamics::kirchhoff::{Twist, skew};
 use crate::fluid::Fluid;
 use crate::hydro::viscous::physical::PhysicalConstants;
 use crate::hydro::viscous::stochastic::StochasticConstants;
@@ -9,18 +10,20 @@ use crate::hydro::viscous::thesis::ThesisConstants;
 use crate::math::{Lanes, scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
 use rapier3d::dynamics::MassProperties;
 use rapier3d::math::{Rotation, Vector};
-use rapier3d::na::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
+use rapier3d::na::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 
-/// The law's constants in rapier's precision.
+/// The law's constants in rapier's precision, the same in every lane.
+// One per kind: a box would save nothing.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
 pub(super) enum LawLanes {
     Inviscid,
     /// The default law for a body that is purely a plate to it …
-    Plate(PhysicalConstants<f32>),
+    Plate(PhysicalConstants<Lanes>),
     /// … and for one that is not.
-    Physical(PhysicalConstants<f32>),
-    Thesis(ThesisConstants<f32>),
-    Stochastic(StochasticConstants<f32>),
+    Physical(PhysicalConstants<Lanes>),
+    Thesis(ThesisConstants<Lanes>),
+    Stochastic(StochasticConstants<Lanes>),
 }
 
 scalar_struct! {
@@ -47,10 +50,33 @@ scalar_struct! {
         turn_yy,
         turn_yz,
         turn_zz,
+        /// Change of velocity (u, then w = ωL) per change of the fluid's velocity, plate axes:
+        /// `𝕄⁻¹ (ρV + ρA)`, the pressure gradient and the added mass of an accelerating flow.
+        push_ux, push_uy, push_uz, push_vx, push_vy, push_vz, push_wx, push_wy, push_wz,
+        spin_ux, spin_uy, spin_uz, spin_vx, spin_vy, spin_vz, spin_wx, spin_wy, spin_wz,
     }
 }
 
 impl Scales<Lanes> {
+    /// Change of the velocity of a body when the fluid around it changes its own by `change`, plate
+    /// axes. A neutrally buoyant body follows exactly.
+    #[inline(always)]
+    pub fn pushed_by(&self, change: &Vector3<Lanes>) -> Twist<Lanes> {
+        let (x, y, z) = (change.x, change.y, change.z);
+        Twist {
+            linear: Vector3::new(
+                self.push_ux * x + self.push_uy * y + self.push_uz * z,
+                self.push_vx * x + self.push_vy * y + self.push_vz * z,
+                self.push_wx * x + self.push_wy * y + self.push_wz * z,
+            ),
+            angular: Vector3::new(
+                self.spin_ux * x + self.spin_uy * y + self.spin_uz * z,
+                self.spin_vx * x + self.spin_vy * y + self.spin_vz * z,
+                self.spin_wx * x + self.spin_wy * y + self.spin_wz * z,
+            ),
+        }
+    }
+
     /// Torque that causes an angular acceleration in rapier, plate axes.
     #[inline(always)]
     pub fn turn(&self, a: &Vector3<Lanes>) -> Vector3<Lanes> {
@@ -95,9 +121,9 @@ pub(super) struct Kind {
     /// Index of the description.
     pub description: u32,
     pub constants: BodyConstants,
-    pub inertia: InertiaConstants<f32>,
+    pub inertia: InertiaConstants<Lanes>,
     pub law: LawLanes,
-    pub scales: Scales<f32>,
+    pub scales: Scales<Lanes>,
     /// Plate axes to the body's frame.
     pub axes: Rotation,
     pub route: Route,
@@ -158,6 +184,21 @@ impl Kind {
                 LawLanes::Stochastic(_) => 4,
             },
         };
+        // What an accelerating flow does, first in the body's axes, then in the plate's.
+        let mut dragged = constants
+            .added_mass
+            .to_matrix6()
+            .fixed_columns::<3>(0)
+            .into_owned();
+        let mut pressure = dragged.fixed_rows_mut::<3>(0);
+        pressure += Matrix3::from_diagonal_element(constants.displaced_mass);
+        let mut moment = dragged.fixed_rows_mut::<3>(3);
+        moment += skew(&constants.buoyancy_arm) * constants.displaced_mass;
+        let response = inverse_mass * dragged;
+        let to_plate =
+            |m: Matrix3<f64>| constants.axes.inverse().matrix() * m * constants.axes.matrix();
+        let push = to_plate(response.fixed_rows::<3>(0).into_owned());
+        let spin = to_plate(response.fixed_rows::<3>(3).into_owned()) * length;
         let scales = Scales {
             length,
             per_mass: 1.0 / mass,
@@ -173,6 +214,24 @@ impl Kind {
             turn_yy: turn[(1, 1)],
             turn_yz: turn[(1, 2)],
             turn_zz: turn[(2, 2)],
+            push_ux: push[(0, 0)],
+            push_uy: push[(0, 1)],
+            push_uz: push[(0, 2)],
+            push_vx: push[(1, 0)],
+            push_vy: push[(1, 1)],
+            push_vz: push[(1, 2)],
+            push_wx: push[(2, 0)],
+            push_wy: push[(2, 1)],
+            push_wz: push[(2, 2)],
+            spin_ux: spin[(0, 0)],
+            spin_uy: spin[(0, 1)],
+            spin_uz: spin[(0, 2)],
+            spin_vx: spin[(1, 0)],
+            spin_vy: spin[(1, 1)],
+            spin_vz: spin[(1, 2)],
+            spin_wx: spin[(2, 0)],
+            spin_wy: spin[(2, 1)],
+            spin_wz: spin[(2, 2)],
         };
         Ok(Self {
             description,
@@ -215,26 +274,6 @@ impl Kind {
             .map_or(torque * 0.0, |inverse| inverse * torque);
         let theirs = super::from_rapier::inertia(rapier);
         to_real(rotation * (theirs * acceleration))
-    }
-
-    /// Velocity change (world axes) of a body whose attitude (body to world) is `attitude` when the
-    /// fluid around it changes its velocity by `change`: `𝕄⁻¹ (ρV + ρA) ΔU`, the pressure gradient
-    /// and the added mass of an accelerating flow. A neutrally buoyant body follows exactly.
-    pub fn pushed_by(&self, attitude: Rotation, change: Vector) -> (Vector, Vector) {
-        let rotation = to_quaternion(attitude);
-        let u = rotation.inverse() * to_f64(change);
-        let c = &self.constants;
-        let pressure = u * c.displaced_mass;
-        let impulse = c.added_mass.linear * u + pressure;
-        let moment = c.added_mass.coupling.transpose() * u + c.buoyancy_arm.cross(&pressure);
-        let velocity = self.inverse_mass
-            * Vector6::new(
-                impulse.x, impulse.y, impulse.z, moment.x, moment.y, moment.z,
-            );
-        (
-            to_real(rotation * velocity.fixed_rows::<3>(0)),
-            to_real(rotation * velocity.fixed_rows::<3>(3)),
-        )
     }
 
     /// Whether another body would be of this kind.

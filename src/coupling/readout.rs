@@ -1,11 +1,12 @@
 //! The forces on one body of the world.
 
+use super::flight::vector;
 use super::immersion::{Immersion, NONE};
 use crate::dynamics::forces::{ForceBreakdown, Instant};
 use crate::dynamics::kirchhoff::Twist;
 use crate::math::{to_f64, to_quaternion};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
-use rapier3d::na::{UnitQuaternion, Vector3};
+use rapier3d::na::UnitQuaternion;
 
 impl Immersion {
     /// The forces on a body in the state that it has now, or `None` if it is not immersed (yet: a
@@ -26,8 +27,8 @@ impl Immersion {
             (velocity, flow.vorticity(point, self.time))
         });
         let (stream, vorticity) = sample.unwrap_or_default();
-        let plate = |v: &[f32]| Vector3::new(v[0].into(), v[1].into(), v[2].into());
-        let rate = &slot.flight.rate;
+        let plate = |row| to_f64(vector(row));
+        let motion = &slot.flight.motion;
         let forces = c.forces(&Instant {
             attitude,
             velocity: Twist {
@@ -35,8 +36,8 @@ impl Immersion {
                 angular: attitude.inverse() * to_f64(body.angvel() - vorticity * 0.5) * c.length,
             },
             rate: Twist {
-                linear: plate(&rate[..3]),
-                angular: plate(&rate[3..]),
+                linear: plate(motion.linear_rate),
+                angular: plate(motion.angular_rate),
             },
             gravity: to_f64(self.gravity * body.gravity_scale()),
         });

@@ -1,7 +1,8 @@
 //! Before and after rapier's step.
 
 use super::contact;
-use super::flight::{Clock, Flyer, fly};
+use super::flight::{Air, Clock, Extra, Flyer, Integrated, Landing, fly, row, vector};
+use super::handover::Pace;
 use super::immersion::{Immersion, NONE, Warning};
 use super::kind::Route;
 use super::original::Original;
@@ -54,13 +55,32 @@ impl<'a> RapierSets<'a> {
 /// Memory that is reused from step to step.
 #[derive(Clone, Default)]
 pub(super) struct Scratch {
-    /// The bodies that this step moves, by route.
-    flyers: [Vec<Flyer>; Route::COUNT],
+    /// Bodies that are about to be moved, by route.
+    batches: [Batch; Route::COUNT],
+    landings: Vec<Landing>,
+    /// Slots of bodies that are close to something, unless the world is `crowded`.
+    close: Vec<bool>,
+    crowded: bool,
     /// Bodies between `before_step` and `after_step`.
     borrowed: Vec<Borrowed>,
     points: Vec<Vector>,
     samples: Vec<FlowSample>,
 }
+
+/// Bodies of one route that are moved together.
+#[derive(Clone, Default)]
+struct Batch {
+    flyers: Vec<Flyer>,
+    extras: Vec<Extra>,
+}
+
+/// Size of a batch: small enough for the bodies to be still in the cache when they are written, large
+/// enough for threads to share.
+const BATCH: usize = if cfg!(feature = "parallel") {
+    16384
+} else {
+    256
+};
 
 /// Sleeping and stale slots are looked at once in this many steps.
 const SWEEP: u32 = 16;
@@ -110,46 +130,42 @@ impl Immersion {
         self.sweep(sets);
         let dt = sets.integration_parameters.dt;
         self.gravity = sets.gravity;
-        let mut scratch = std::mem::take(&mut self.scratch);
-        scratch.flyers.iter_mut().for_each(Vec::clear);
-        scratch.borrowed.clear();
         if self.enabled && dt > 0.0 {
             self.advance_players(dt.into());
-            // Rapier lists a body as active only once it has stepped it: newcomers go first.
-            self.newcomers
-                .sort_unstable_by_key(|handle| handle.into_raw_parts());
-            self.newcomers.dedup();
-            for index in 0..self.newcomers.len() {
-                self.board(self.newcomers[index], sets, &mut scratch);
-            }
-            for handle in sets.islands.active_bodies() {
-                let key = handle.into_raw_parts();
-                let newcomers = &self.newcomers;
-                if newcomers.is_empty()
-                    || newcomers
-                        .binary_search_by_key(&key, |h| h.into_raw_parts())
-                        .is_err()
-                {
-                    self.board(handle, sets, &mut scratch);
-                }
-            }
-            self.newcomers.clear();
+            let mut scratch = std::mem::take(&mut self.scratch);
+            scratch.borrowed.clear();
             let clock = Clock {
                 dt,
-                substeps: sets.integration_parameters.num_solver_iterations,
+                pace: Pace::new(dt, sets.integration_parameters.num_solver_iterations),
+                gravity: sets.gravity,
                 integrator: self.integrator,
             };
-            for route in Route::all() {
-                let flyers = &mut scratch.flyers[route.index()];
-                self.sample_flow(flyers, sets, &mut scratch.points, &mut scratch.samples);
-                self.fly_all(flyers, route, &clock);
-                for flyer in flyers {
-                    let borrowed = self.hand_over(flyer, sets);
-                    scratch.borrowed.extend(borrowed);
-                }
+            self.find_close(sets, &mut scratch);
+            // Rapier lists a body as active only once it has stepped it: newcomers go first.
+            let mut newcomers = std::mem::take(&mut self.newcomers);
+            newcomers.sort_unstable_by_key(|handle| handle.into_raw_parts());
+            newcomers.dedup();
+            for handle in &newcomers {
+                self.board(*handle, sets, &mut scratch, &clock);
             }
+            let islands = sets.islands;
+            islands.active_bodies().for_each(|handle| {
+                let key = handle.into_raw_parts();
+                let new = |list: &[RigidBodyHandle]| {
+                    list.binary_search_by_key(&key, |h| h.into_raw_parts())
+                        .is_ok()
+                };
+                if newcomers.is_empty() || !new(&newcomers) {
+                    self.board(handle, sets, &mut scratch, &clock);
+                }
+            });
+            for route in Route::all() {
+                self.depart(route, sets, &mut scratch, &clock);
+            }
+            newcomers.clear();
+            self.newcomers = newcomers;
+            self.scratch = scratch;
         }
-        self.scratch = scratch;
     }
 
     /// To be called right after `PhysicsPipeline::step`: gives users' forces back and corrects the
@@ -322,12 +338,38 @@ impl Immersion {
         }
     }
 
+    /// Marks the bodies of all pairs where pairs are few, so that the others need not be asked for
+    /// theirs one by one.
+    fn find_close(&self, sets: &RapierSets, scratch: &mut Scratch) {
+        let pairs = sets.narrow_phase.contact_graph().raw_graph().raw_edges();
+        scratch.crowded = pairs.len() > sets.islands.num_active_bodies() / 4;
+        if scratch.crowded {
+            return;
+        }
+        scratch.close.clear();
+        scratch.close.resize(self.slots.len(), false);
+        for pair in sets.narrow_phase.contact_pairs() {
+            for collider in [pair.collider1, pair.collider2] {
+                let parent = sets.colliders.get(collider).and_then(|c| c.parent());
+                if let Some(slot) = parent.and_then(|body| self.slot_index(body)) {
+                    scratch.close[slot] = true;
+                }
+            }
+        }
+    }
+
     /// Puts an awake body on the list of those that this step moves, if it is immersed.
-    fn board(&self, handle: RigidBodyHandle, sets: &RapierSets, scratch: &mut Scratch) {
+    fn board(
+        &mut self,
+        handle: RigidBodyHandle,
+        sets: &mut RapierSets,
+        scratch: &mut Scratch,
+        clock: &Clock,
+    ) {
         let Some(index) = self.slot_index(handle) else {
             return;
         };
-        let (Some(slot), Some(body)) = (self.slots[index].as_ref(), sets.bodies.get(handle)) else {
+        let (Some(slot), Some(body)) = (self.slots[index].as_mut(), sets.bodies.get(handle)) else {
             return;
         };
         if slot.original.is_none() || slot.kind == NONE || !body.is_dynamic() || body.is_sleeping()
@@ -340,7 +382,12 @@ impl Immersion {
             colliders: sets.colliders,
             dt: sets.integration_parameters.dt,
         };
-        let normal = contact::normal(kind, body, sets.narrow_phase, surroundings);
+        let close = scratch.crowded || scratch.close[index];
+        let normal = if close {
+            contact::normal(kind, body, sets.narrow_phase, surroundings)
+        } else {
+            None
+        };
         let held = is_held(body, handle, sets);
         let wanted = match normal {
             Some(normal) => contact::mass_along(kind, body, normal) as Real,
@@ -352,8 +399,8 @@ impl Immersion {
         let free = normal.is_none() && !held && body.additional_solver_iterations() == 0;
 
         let rapier = *body.rotation() * kind.axes;
-        let flight = &slot.flight;
-        let kept = Rotation::from_array(flight.attitude);
+        let flight = &mut slot.flight;
+        let kept = Rotation::from_array(flight.motion.attitude);
         // The motion that was integrated goes on, unless someone turned the body since. What rapier
         // or a user did to its velocity comes on top; rounding does not.
         let goes_on = free
@@ -369,19 +416,33 @@ impl Immersion {
                 Vector::ZERO
             }
         };
-        let (attitude, velocity, rate, linear, angular) = if goes_on {
-            (
-                kept,
-                flight.velocity,
-                flight.rate,
-                beyond_rounding(body.linvel(), flight.end_linear),
-                beyond_rounding(body.angvel(), flight.end_angular),
-            )
+        let (linear, angular) = (body.linvel(), body.angvel());
+        let (force, torque) = (body.user_force(), body.user_torque());
+        let (mut plain, mut on_top) = (false, (linear, angular));
+        if goes_on {
+            on_top = (
+                beyond_rounding(linear, flight.end_linear),
+                beyond_rounding(angular, flight.end_angular),
+            );
+            plain = [on_top.0, on_top.1, force, torque] == [Vector::ZERO; 4];
         } else {
-            (rapier, [0.0; 6], [0.0; 6], body.linvel(), body.angvel())
+            flight.motion = Integrated::at(rapier);
+        }
+        let route = kind.route;
+        let batch = &mut scratch.batches[route.index()];
+        let extra = if plain {
+            NONE
+        } else {
+            batch.extras.push(Extra {
+                linear: row(on_top.0),
+                angular: row(on_top.1),
+                force: row(force),
+                torque: row(torque),
+                ..Extra::default()
+            });
+            batch.extras.len() as u32 - 1
         };
-        let gravity = sets.gravity * body.gravity_scale();
-        scratch.flyers[kind.route.index()].push(Flyer {
+        batch.flyers.push(Flyer {
             handle,
             slot: index as u32,
             kind: slot.kind,
@@ -391,32 +452,50 @@ impl Immersion {
             solver_mass: if new_mass { wanted } else { solver_mass },
             new_mass,
             control: slot.control,
-            attitude: attitude.to_array(),
-            velocity,
-            rate,
-            linear: linear.to_array(),
-            angular: angular.to_array(),
-            stream: [0.0; 3],
-            vorticity: [0.0; 3],
-            gravity: gravity.to_array(),
-            force: body.user_force().to_array(),
-            torque: body.user_torque().to_array(),
+            gravity_scale: body.gravity_scale(),
+            extra,
+            turned: torque != Vector::ZERO,
             rapier_attitude: rapier.to_array(),
-            rapier_linear: body.linvel().to_array(),
-            rapier_angular: body.angvel().to_array(),
-            end_linear: [0.0; 3],
-            end_angular: [0.0; 3],
-            start_linear: [0.0; 3],
-            start_angular: [0.0; 3],
-            push: [0.0; 3],
-            twist: [0.0; 3],
+            rapier_linear: row(linear),
+            rapier_angular: row(angular),
         });
+        if batch.flyers.len() == BATCH {
+            self.depart(route, sets, scratch, clock);
+        }
+    }
+
+    /// Moves the bodies of a batch.
+    fn depart(
+        &mut self,
+        route: Route,
+        sets: &mut RapierSets,
+        scratch: &mut Scratch,
+        clock: &Clock,
+    ) {
+        let batch = &mut scratch.batches[route.index()];
+        self.sample_flow(batch, sets, &mut scratch.points, &mut scratch.samples);
+        let landings = &mut scratch.landings;
+        landings.resize(batch.flyers.len(), Landing::default());
+        let air = Air {
+            slots: &self.slots,
+            kinds: &self.kinds,
+            extras: &batch.extras,
+            clock,
+        };
+        fly_all(&batch.flyers, landings, route, air);
+        for (flyer, landing) in batch.flyers.iter().zip(landings.iter()) {
+            if let Some(borrowed) = self.hand_over(flyer, landing, sets) {
+                scratch.borrowed.push(borrowed);
+            }
+        }
+        batch.flyers.clear();
+        batch.extras.clear();
     }
 
     /// Reads the flow at every flyer, and lets a flow that changes push the bodies in it.
     fn sample_flow(
         &mut self,
-        flyers: &mut [Flyer],
+        batch: &mut Batch,
         sets: &RapierSets,
         points: &mut Vec<Vector>,
         samples: &mut Vec<FlowSample>,
@@ -426,70 +505,62 @@ impl Immersion {
         };
         points.clear();
         points.extend(
-            flyers
+            batch
+                .flyers
                 .iter()
                 .filter_map(|flyer| Some(sets.bodies.get(flyer.handle)?.center_of_mass())),
         );
         samples.clear();
         samples.resize(points.len(), FlowSample::default());
         flow.sample(points, self.time, samples);
-        for (flyer, sample) in flyers.iter_mut().zip(samples.iter()) {
+        for (flyer, sample) in batch.flyers.iter_mut().zip(samples.iter()) {
             if !sample.velocity.is_finite() || !sample.vorticity.is_finite() {
                 continue;
             }
             let Some(slot) = &mut self.slots[flyer.slot as usize] else {
                 continue;
             };
-            flyer.stream = sample.velocity.to_array();
-            flyer.vorticity = sample.vorticity.to_array();
-            let mut linear = Vector::from_array(flyer.linear);
+            if flyer.extra == NONE {
+                flyer.extra = batch.extras.len() as u32;
+                batch.extras.push(Extra::default());
+            }
+            let Some(extra) = batch.extras.get_mut(flyer.extra as usize) else {
+                continue;
+            };
+            extra.stream = row(sample.velocity);
+            extra.vorticity = row(sample.vorticity);
+            let change = sample.velocity - slot.flight.stream;
+            if slot.flight.flying {
+                extra.stream_change = row(change);
+            }
             // In the frame of the fluid: a body that goes on is there already, but the frame itself
             // has changed its velocity.
-            linear -= if flyer.goes_on {
-                sample.velocity - slot.flight.stream
+            let frame = if flyer.goes_on {
+                change
             } else {
                 sample.velocity
             };
-            if slot.flight.flying {
-                let kind = &self.kinds[flyer.kind as usize];
-                let change = sample.velocity - slot.flight.stream;
-                let attitude = Rotation::from_array(flyer.attitude) * kind.axes.inverse();
-                let (push, twist) = kind.pushed_by(attitude, change);
-                linear += push;
-                flyer.angular = (Vector::from_array(flyer.angular) + twist).to_array();
-            }
-            flyer.linear = linear.to_array();
+            extra.linear = row(vector(extra.linear) - frame);
+            flyer.turned |= sample.vorticity != Vector::ZERO;
             slot.flight.stream = sample.velocity;
         }
     }
 
-    fn fly_all(&self, flyers: &mut [Flyer], route: Route, clock: &Clock) {
-        #[cfg(feature = "parallel")]
-        {
-            use crate::math::LANES;
-            use rapier3d::rayon::prelude::*;
-            /// Bodies per task: enough to be worth handing to another thread.
-            const TASK: usize = 64 * LANES;
-            if flyers.len() > TASK {
-                flyers
-                    .par_chunks_mut(TASK)
-                    .for_each(|task| fly(task, &self.kinds, route, clock));
-                return;
-            }
-        }
-        fly(flyers, &self.kinds, route, clock);
-    }
-
     /// Writes what the step shall do to one body, and keeps what must be given back.
-    fn hand_over(&mut self, flyer: &Flyer, sets: &mut RapierSets) -> Option<Borrowed> {
+    fn hand_over(
+        &mut self,
+        flyer: &Flyer,
+        landing: &Landing,
+        sets: &mut RapierSets,
+    ) -> Option<Borrowed> {
         let body = sets.bodies.get_mut(flyer.handle)?;
         let [force, torque, start_linear, start_angular] = [
-            flyer.push,
-            flyer.twist,
-            flyer.start_linear,
-            flyer.start_angular,
+            landing.push,
+            landing.twist,
+            landing.start_linear,
+            landing.start_angular,
         ]
-        .map(Vector::from_array);
+        .map(vector);
         if !(force + torque + start_linear + start_angular).is_finite() {
             return None;
         }
@@ -528,14 +599,29 @@ impl Immersion {
             slot.flight.solver_mass = flyer.solver_mass;
         }
         slot.touching = flyer.may_sleep;
-        slot.flight.attitude = flyer.attitude;
-        slot.flight.velocity = flyer.velocity;
-        slot.flight.rate = flyer.rate;
-        slot.flight.end_linear = Vector::from_array(flyer.end_linear);
-        slot.flight.end_angular = Vector::from_array(flyer.end_angular);
+        slot.flight.motion = landing.motion;
+        slot.flight.end_linear = vector(landing.end_linear);
+        slot.flight.end_angular = vector(landing.end_angular);
         slot.flight.flying = true;
         Some(borrowed)
     }
+}
+
+fn fly_all(flyers: &[Flyer], landings: &mut [Landing], route: Route, air: Air) {
+    #[cfg(feature = "parallel")]
+    {
+        use rapier3d::rayon::prelude::*;
+        /// Bodies per task: enough to be worth handing to another thread.
+        const TASK: usize = 256;
+        if flyers.len() > TASK {
+            flyers
+                .par_chunks(TASK)
+                .zip(landings.par_chunks_mut(TASK))
+                .for_each(|(task, landings)| fly(task, landings, route, air));
+            return;
+        }
+    }
+    fly(flyers, landings, route, air);
 }
 
 /// Whether joints or locked axes keep a body from moving freely.

@@ -94,6 +94,8 @@ fn fly(case: &Case, design: Design, h: f64) -> Option<Vector3<f64>> {
             angular: Vector3::new(1.0, 0.3, 0.2).normalize() * (case.spin * constants.length),
         },
         rate: Twist::zero(),
+        trend: Twist::zero(),
+        last: 0.0,
     };
     for _ in 0..(case.seconds / h).round() as usize {
         match design {
@@ -191,8 +193,9 @@ fn runge_kutta(
 }
 
 /// The table of the module's documentation, and what it claims: our scheme is stable everywhere and
-/// second order, the implicit Euler scheme first order, and Runge–Kutta blows up where the added
-/// mass outweighs a light body.
+/// second order (where the motion is smooth: the plate's spin passes kinks of the law, where
+/// extrapolation costs it half an order), the implicit Euler scheme first order, and Runge–Kutta
+/// blows up where the added mass outweighs a light body.
 #[test]
 fn designs_compared() {
     let designs = [
@@ -226,7 +229,9 @@ fn designs_compared() {
         if case.density < 100.0 {
             assert!(error(Design::RungeKutta, 60.0).is_none());
         } else {
-            assert!(order(Design::Midpoint(1)) > 1.5, "{}", case.name);
+            let smooth = case.spin == 0.0;
+            let least = if smooth { 1.8 } else { 1.3 };
+            assert!(order(Design::Midpoint(1)) > least, "{}", case.name);
             assert!(order(Design::ImplicitEuler) < 1.2, "{}", case.name);
         }
     }

@@ -28,7 +28,10 @@ pub struct FreeBody {
     attitude: UnitQuaternion<f64>,
     /// u and w relative to the fluid at rest, plate axes.
     velocity: Twist<f64>,
+    /// The integrator's memory: see [`Motion`].
     rate: Twist<f64>,
+    trend: Twist<f64>,
+    last: f64,
 }
 
 impl FreeBody {
@@ -48,6 +51,8 @@ impl FreeBody {
             attitude,
             velocity: Twist::zero(),
             rate: Twist::zero(),
+            trend: Twist::zero(),
+            last: 0.0,
         })
     }
 
@@ -85,6 +90,8 @@ impl FreeBody {
             angular: self.attitude.inverse() * angular * self.constants.length,
         };
         self.rate = Twist::zero();
+        self.trend = Twist::zero();
+        self.last = 0.0;
     }
 
     /// Goes on from a state that was computed elsewhere and is close to this body's own, keeping
@@ -96,11 +103,11 @@ impl FreeBody {
         linear: Vector3<f64>,
         angular: Vector3<f64>,
     ) {
-        let rate = self.rate;
+        let (rate, trend, last) = (self.rate, self.trend, self.last);
         self.position = position;
         self.set_orientation(orientation);
         self.set_velocity(linear, angular);
-        self.rate = rate;
+        (self.rate, self.trend, self.last) = (rate, trend, last);
     }
 
     /// Plate normal (the shortest principal axis), world axes.
@@ -141,6 +148,8 @@ impl FreeBody {
             displacement: Vector3::zeros(),
             velocity: self.velocity,
             rate: self.rate,
+            trend: self.trend,
+            last: self.last,
         };
         motion.velocity.linear -= rotate_back(&motion.attitude, &stream);
         let (inertia, factors) = (&c.inertia, self.control);
@@ -168,7 +177,7 @@ impl FreeBody {
         self.attitude = UnitQuaternion::new_normalize(motion.attitude);
         self.velocity = motion.velocity;
         self.velocity.linear += rotate_back(self.attitude.quaternion(), &stream);
-        self.rate = motion.rate;
+        (self.rate, self.trend, self.last) = (motion.rate, motion.trend, motion.last);
         self.position += motion.displacement + stream * dt;
     }
 

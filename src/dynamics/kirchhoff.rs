@@ -86,7 +86,7 @@ impl<T: Scalar> Blocks<T> {
 
 /// Inverse by the adjugate, written out: it is a fifth of the step.
 #[inline(always)]
-fn inverse3<T: Scalar>(m: &Matrix3<T>) -> Matrix3<T> {
+pub(super) fn inverse3<T: Scalar>(m: &Matrix3<T>) -> Matrix3<T> {
     let (a, b, c) = (m.m11, m.m12, m.m13);
     let (d, e, f) = (m.m21, m.m22, m.m23);
     let (g, h, i) = (m.m31, m.m32, m.m33);
@@ -123,7 +123,7 @@ fn product<T: Scalar>(p: &Matrix3<T>, q: &Matrix3<T>) -> Matrix3<T> {
 
 /// Product with a vector, written out.
 #[inline(always)]
-fn transform<T: Scalar>(m: &Matrix3<T>, v: &Vector3<T>) -> Vector3<T> {
+pub(super) fn transform<T: Scalar>(m: &Matrix3<T>, v: &Vector3<T>) -> Vector3<T> {
     Vector3::new(
         m.m11 * v.x + m.m12 * v.y + m.m13 * v.z,
         m.m21 * v.x + m.m22 * v.y + m.m23 * v.z,
@@ -188,7 +188,7 @@ impl<T: Scalar> InertiaConstants<T> {
     ///
     /// `SYMMETRIC` says that 𝕄 is diagonal and the planform is centered on the center of mass, as for
     /// every uniform body with three planes of symmetry and every proxy ellipsoid of one; that path
-    /// writes out what is not zero and costs a third.
+    /// ([`symmetric`](super::symmetric)) costs a fraction.
     #[inline(always)]
     pub fn increment<const SYMMETRIC: bool>(
         &self,
@@ -199,114 +199,23 @@ impl<T: Scalar> InertiaConstants<T> {
         h: T,
         theta: T,
     ) -> Twist<T> {
+        if SYMMETRIC && terms.arm_moves {
+            return self.symmetric_increment(terms, start, middle, load, h, theta);
+        }
         let scale = theta * h;
-        let (system, right) = if SYMMETRIC && terms.arm_moves {
-            self.symmetric_system(terms, start, middle, scale)
-        } else {
-            let mass = self.mass_matrix();
-            let n = self.coupling_matrix(&mass, terms, middle);
-            let system = Blocks {
-                m11: mass.m11 - n.m11 * scale,
-                m12: mass.m12 - n.m12 * scale,
-                m21: mass.m21 - n.m21 * scale,
-                m22: mass.m22 - n.m22 * scale,
-            };
-            (system, n.apply(start))
+        let mass = self.mass_matrix();
+        let n = self.coupling_matrix(&mass, terms, middle);
+        let system = Blocks {
+            m11: mass.m11 - n.m11 * scale,
+            m12: mass.m12 - n.m12 * scale,
+            m21: mass.m21 - n.m21 * scale,
+            m22: mass.m22 - n.m22 * scale,
         };
+        let right = n.apply(start);
         system.solve(&Twist {
             linear: (right.linear + load.linear) * h,
             angular: (right.angular + load.angular) * h,
         })
-    }
-
-    /// `𝕄 − scale·N` and `N ν₀` of a symmetric body under a passive law.
-    #[inline(always)]
-    fn symmetric_system(
-        &self,
-        terms: &ViscousTerms<T>,
-        start: &Twist<T>,
-        middle: &Twist<T>,
-        scale: T,
-    ) -> (Blocks<T>, Twist<T>) {
-        let (u, w) = (&middle.linear, &middle.angular);
-        let own = self.dry_mass * (T::one() - self.munk);
-        let p = Vector3::new(
-            (self.m11_xx * self.munk + own) * u.x,
-            (self.m11_yy * self.munk + own) * u.y,
-            (self.m11_zz * self.munk + own) * u.z,
-        ) * self.per_length;
-        let momentum =
-            Vector3::new(self.m22_xx * w.x, self.m22_yy * w.y, self.m22_zz * w.z) * self.per_length;
-        let lift = terms.translational_lift + terms.rotational_lift;
-        let resistance = terms.creeping.map(|s| terms.drag + s);
-        // v_pressure = u + (0, 0, a w_x + b w_y)
-        let (a, b) = (terms.arm.y, -terms.arm.x);
-
-        // N ν₀
-        let (u0, w0) = (&start.linear, &start.angular);
-        let v0 = Vector3::new(u0.x, u0.y, u0.z + a * w0.x + b * w0.y);
-        let f = cross(&lift, &v0) - resistance.component_mul(&v0);
-        let gyroscopic = cross(&p, u0) + cross(&momentum, w0) - terms.damping.component_mul(w0);
-        let applied = Twist {
-            linear: f + cross(&p, w0),
-            angular: Vector3::new(gyroscopic.x + a * f.z, gyroscopic.y + b * f.z, gyroscopic.z),
-        };
-
-        // 𝕄 − scale·N, with everything scaled first.
-        let (l, r) = (lift * scale, resistance * scale);
-        let (p, g) = (p * scale, momentum * scale);
-        let k = terms.damping * scale;
-        let o = T::zero();
-        // Column and row z of −scale·G, G the force matrix.
-        let column = Vector3::new(-l.y, l.x, r.z);
-        let row = Vector3::new(l.y, -l.x, r.z);
-        let system = Blocks {
-            m11: Matrix3::new(
-                self.m11_xx + r.x,
-                l.z,
-                column.x,
-                -l.z,
-                self.m11_yy + r.y,
-                column.y,
-                row.x,
-                row.y,
-                self.m11_zz + r.z,
-            ),
-            m12: Matrix3::new(
-                column.x * a,
-                column.x * b + p.z,
-                -p.y,
-                column.y * a - p.z,
-                column.y * b,
-                p.x,
-                column.z * a + p.y,
-                column.z * b - p.x,
-                o,
-            ),
-            m21: Matrix3::new(
-                row.x * a,
-                row.y * a + p.z,
-                row.z * a - p.y,
-                row.x * b - p.z,
-                row.y * b,
-                row.z * b + p.x,
-                p.y,
-                -p.x,
-                o,
-            ),
-            m22: Matrix3::new(
-                self.m22_xx + k.x + r.z * a * a,
-                r.z * a * b + g.z,
-                -g.y,
-                r.z * a * b - g.z,
-                self.m22_yy + k.y + r.z * b * b,
-                g.x,
-                g.y,
-                -g.x,
-                self.m22_zz + k.z,
-            ),
-        };
-        (system, applied)
     }
 
     /// From the center of mass to the planform's center, in L.
@@ -332,8 +241,11 @@ impl<T: Scalar> InertiaConstants<T> {
         terms: &ViscousTerms<T>,
         v: &Twist<T>,
     ) -> Blocks<T> {
-        let p = mass.m11 * v.linear + mass.m12 * v.angular;
-        let p = p * self.munk + v.linear * (self.dry_mass * (T::one() - self.munk));
+        // Of the body's own momentum m u, ω × is applied to u, so that no torque m u × u is left
+        // where the frozen u and the new one differ; that of the fluid turns with both.
+        let own = skew(&(v.angular * (self.dry_mass * self.per_length)));
+        let p = mass.m11 * v.linear - v.linear * self.dry_mass + mass.m12 * v.angular;
+        let p = p * self.munk;
         let h = mass.m22 * v.angular + (mass.m21 * v.linear) * self.munk;
         let p = skew(&(p * self.per_length));
         let h = skew(&(h * self.per_length));
@@ -359,7 +271,7 @@ impl<T: Scalar> InertiaConstants<T> {
             n22[(i, i)] -= terms.damping[i];
         }
         Blocks {
-            m11: g,
+            m11: g - own,
             m12: n12 + p,
             m21: n21 + p,
             m22: n22,

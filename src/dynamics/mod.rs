@@ -6,6 +6,7 @@ pub mod forces;
 pub mod free_body;
 pub(crate) mod integrate;
 pub(crate) mod kirchhoff;
+mod symmetric;
 
 pub use forces::{ForceAndTorque, ForceBreakdown};
 pub use free_body::FreeBody;

@@ -1,8 +1,8 @@
 //! An adaptive explicit integrator: trains surrogates, finds singularities.
 
-/// Accuracy of [`integrate`].
+/// Tolerances of [`integrate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Accuracy {
+pub struct Tolerances {
     /// Error per step relative to the state. Default 1e-9.
     pub relative: f64,
     /// Error per step where the state is small, in its units. Default 1e-9.
@@ -11,7 +11,7 @@ pub struct Accuracy {
     pub max_steps: usize,
 }
 
-impl Default for Accuracy {
+impl Default for Tolerances {
     fn default() -> Self {
         Self {
             relative: 1e-9,
@@ -72,7 +72,7 @@ pub fn integrate(
     start: f64,
     end: f64,
     state: &mut [f64],
-    accuracy: Accuracy,
+    tolerances: Tolerances,
 ) -> f64 {
     let n = state.len();
     let mut slopes = vec![vec![0.0; n]; 7];
@@ -81,7 +81,7 @@ pub fn integrate(
     let span = end - start;
     let mut step = span * 1e-3;
     rate(t, state, &mut slopes[0]);
-    for _ in 0..accuracy.max_steps {
+    for _ in 0..tolerances.max_steps {
         if t >= end {
             return end;
         }
@@ -102,7 +102,8 @@ pub fn integrate(
         let mut error = 0.0_f64;
         for i in 0..n {
             let difference: f64 = (0..7).map(|k| ERROR[k] * slopes[k][i]).sum();
-            let size = accuracy.absolute + accuracy.relative * state[i].abs().max(trial[i].abs());
+            let size =
+                tolerances.absolute + tolerances.relative * state[i].abs().max(trial[i].abs());
             let scaled = (h * difference / size).abs();
             error = if scaled.is_nan() {
                 f64::INFINITY
@@ -133,13 +134,13 @@ mod tests {
             let cube = (x[0] * x[0] + x[1] * x[1]).powf(1.5);
             out.copy_from_slice(&[x[2], x[3], -x[0] / cube, -x[1] / cube]);
         };
-        let accuracy = Accuracy {
+        let tolerances = Tolerances {
             relative: 1e-12,
             absolute: 1e-12,
-            ..Accuracy::default()
+            ..Tolerances::default()
         };
         let end = 2.0 * std::f64::consts::PI;
-        assert_eq!(integrate(rate, 0.0, end, &mut state, accuracy), end);
+        assert_eq!(integrate(rate, 0.0, end, &mut state, tolerances), end);
         for (a, b) in state.iter().zip(start) {
             assert!((a - b).abs() < 1e-9, "{state:?}");
         }
@@ -154,7 +155,7 @@ mod tests {
             0.0,
             2.0,
             &mut state,
-            Accuracy::default(),
+            Tolerances::default(),
         );
         assert!((reached - 1.0).abs() < 1e-4, "{reached}");
         let reached = integrate(
@@ -162,7 +163,7 @@ mod tests {
             0.0,
             2.0,
             &mut state,
-            Accuracy::default(),
+            Tolerances::default(),
         );
         assert_eq!(reached, 0.0);
     }

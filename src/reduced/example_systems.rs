@@ -129,7 +129,7 @@ pub fn kirchhoff_ellipsoid(initial_velocity: &Axis) -> QuadraticSystem {
 
 #[cfg(test)]
 mod tests {
-    use super::super::dormand_prince::Accuracy;
+    use super::super::dormand_prince::Tolerances;
     use super::*;
 
     /// Without gravity the system is Kirchhoff's: it keeps ½ uᵀMu + ½ ωᵀJω and |M u|.
@@ -146,12 +146,12 @@ mod tests {
             [energy, impulse]
         };
         let start = [0.9, 0.3, 0.7, 0.2, 0.8, 0.6];
-        let accuracy = Accuracy {
+        let tolerances = Tolerances {
             relative: 1e-12,
             absolute: 1e-12,
-            ..Accuracy::default()
+            ..Tolerances::default()
         };
-        let end = system.integrate(&start, 5.0, accuracy).unwrap();
+        let end = system.integrate(&start, 5.0, tolerances).unwrap();
         for (a, b) in invariants(&start).iter().zip(invariants(&end)) {
             assert!((a - b).abs() < 1e-9, "{a} {b}");
         }
@@ -164,7 +164,9 @@ mod tests {
             (linear(axis.clone()), linear_solution as fn(f64, f64) -> f64),
             (falling_body(axis), falling_body_solution),
         ] {
-            let end = system.integrate(&[1.3], 0.7, Accuracy::default()).unwrap();
+            let end = system
+                .integrate(&[1.3], 0.7, Tolerances::default())
+                .unwrap();
             assert!((end[0] - solution(0.7, 1.3)).abs() < 1e-7);
         }
     }

@@ -1,6 +1,6 @@
 //! A plate that falls in a plane: the test dynamics of surrogates and identification.
 
-use super::dormand_prince::{Accuracy, integrate};
+use super::dormand_prince::{Tolerances, integrate};
 
 /// The thin-plate limit of the quasi-steady model of Andersen, Pesavento & Wang (J. Fluid Mech.
 /// 541, 2005): flutter, tumbling and chaos from six ordinary differential equations.
@@ -80,24 +80,29 @@ impl FallingPlate {
     }
 
     /// Advances the state by `duration`; the time that was reached is returned.
-    pub fn advance(&self, state: &mut [f64], duration: f64, accuracy: Accuracy) -> f64 {
+    pub fn advance(&self, state: &mut [f64], duration: f64, tolerances: Tolerances) -> f64 {
         integrate(
             |_, x, out| self.rate(x, out),
             0.0,
             duration,
             state,
-            accuracy,
+            tolerances,
         )
     }
 
     /// The states at increasing `times` (≥ 0) from `start` at time 0, one after the other.
-    pub fn trajectory(&self, start: &[f64; 6], times: &[f64], accuracy: Accuracy) -> Vec<[f64; 6]> {
+    pub fn trajectory(
+        &self,
+        start: &[f64; 6],
+        times: &[f64],
+        tolerances: Tolerances,
+    ) -> Vec<[f64; 6]> {
         let mut state = *start;
         let mut now = 0.0;
         let mut states = Vec::with_capacity(times.len());
         for time in times {
             if *time > now {
-                self.advance(&mut state, time - now, accuracy);
+                self.advance(&mut state, time - now, tolerances);
                 now = *time;
             }
             states.push(state);
@@ -116,14 +121,14 @@ mod tests {
             ..FallingPlate::default()
         };
         let mut start = [1e-3, 1e-3, 1e-3, std::f64::consts::FRAC_PI_4, 0.0, 0.0];
-        let accuracy = Accuracy {
+        let tolerances = Tolerances {
             relative: 1e-10,
             absolute: 1e-10,
-            ..Accuracy::default()
+            ..Tolerances::default()
         };
-        plate.advance(&mut start, 200.0, accuracy);
+        plate.advance(&mut start, 200.0, tolerances);
         let times: Vec<f64> = (0..=4000).map(|i| span * f64::from(i) / 4000.0).collect();
-        plate.trajectory(&start, &times, accuracy)
+        plate.trajectory(&start, &times, tolerances)
     }
 
     /// Flutter at I* = 0.5: period 6.3771, descent −.30110, max |ω| .92683; no drift (recomputed

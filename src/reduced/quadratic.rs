@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::canonical::Canonical;
-use super::dormand_prince::{Accuracy, integrate};
+use super::dormand_prince::{Tolerances, integrate};
 use crate::Error;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -139,11 +139,11 @@ impl QuadraticSystem {
         &self,
         parameters: &[f64],
         time: f64,
-        accuracy: Accuracy,
+        tolerances: Tolerances,
     ) -> Result<Vec<f64>, Singularity> {
         let mut state = self.initial_state(parameters);
         let rate = |_: f64, x: &[f64], out: &mut [f64]| self.rate(parameters, x, out);
-        let reached = integrate(rate, 0.0, time, &mut state, accuracy);
+        let reached = integrate(rate, 0.0, time, &mut state, tolerances);
         if reached < time || !state.iter().all(|x| x.abs() < 1e12) {
             return Err(Singularity {
                 parameters: parameters.to_vec(),
@@ -176,15 +176,15 @@ impl QuadraticSystem {
                 .collect()
         };
         let corners = (0..1 << d.min(10)).map(corner);
-        let accuracy = Accuracy {
+        let tolerances = Tolerances {
             relative: 1e-7,
             absolute: 1e-9,
-            ..Accuracy::default()
+            ..Tolerances::default()
         };
         let points: Vec<_> = corners.chain((0..256).map(|_| inside())).collect();
         let singular = points
             .iter()
-            .filter_map(|p| self.integrate(p, time, accuracy).err());
+            .filter_map(|p| self.integrate(p, time, tolerances).err());
         singular.min_by(|a, b| a.time.total_cmp(&b.time))
     }
 

@@ -3,11 +3,11 @@
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
-use rapier3d_immersed::reduced::dormand_prince::Accuracy;
+use rapier3d_immersed::reduced::dormand_prince::Tolerances;
 use rapier3d_immersed::reduced::falling_plate::FallingPlate;
 use rapier3d_immersed::reduced::identify::{FitParams, fit};
 
-const ACCURACY: Accuracy = Accuracy {
+const TOLERANCES: Tolerances = Tolerances {
     relative: 1e-7,
     absolute: 1e-7,
     max_steps: 10_000,
@@ -17,7 +17,7 @@ const ACCURACY: Accuracy = Accuracy {
 fn track(inertia_ratio: f64, p: &[f64], times: &[f64], out: &mut [f64]) {
     let plate = FallingPlate::with_coefficients(inertia_ratio, [p[0], p[1], p[2], p[3], p[4]]);
     let start = [p[5], p[6], p[7], p[8], p[9], p[10]];
-    let states = plate.trajectory(&start, &times[..out.len() / 3], ACCURACY);
+    let states = plate.trajectory(&start, &times[..out.len() / 3], TOLERANCES);
     for (row, state) in out.chunks_exact_mut(3).zip(states) {
         row.copy_from_slice(&[state[4], state[5], state[3]]);
     }

@@ -1,16 +1,15 @@
 //! Surrogates of dynamics that are no polynomials, on the falling plate: error against horizon,
 //! off the grid, relative to the standard deviation of the quantity over the domain.
 
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64;
+use crate::errors::Truth;
 use rapier3d_immersed::reduced::axis::Axis;
 use rapier3d_immersed::reduced::cross::CrossParams;
-use rapier3d_immersed::reduced::dormand_prince::Accuracy;
+use rapier3d_immersed::reduced::dormand_prince::Tolerances;
 use rapier3d_immersed::reduced::falling_plate::FallingPlate;
 use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const ACCURACY: Accuracy = Accuracy {
+const TOLERANCES: Tolerances = Tolerances {
     relative: 1e-7,
     absolute: 1e-7,
     max_steps: 100_000,
@@ -35,30 +34,13 @@ fn start(angle: f64) -> [f64; 6] {
     [1e-3, 1e-3, 1e-3, angle, 0.0, 0.0]
 }
 
-/// Random (parameters, release angle) and the horizontal position at `end`.
-fn samples(low: f64, high: f64, end: f64, count: usize) -> Vec<(Vec<f64>, f64)> {
-    let mut random = Pcg64::seed_from_u64(7);
+fn truth(low: f64, high: f64, end: f64) -> Truth {
     let mut axes = parameters(low, high, 2);
     axes.push(Axis::spectral(0.5, 1.0, 2).unwrap());
-    let mut point = || -> Vec<f64> {
-        axes.iter()
-            .map(|axis| random.random_range(axis.start()..axis.end()))
-            .collect()
-    };
-    (0..count)
-        .map(|_| point())
-        .map(|p| {
-            let state = plate(&p).trajectory(&start(p[4]), &[end], ACCURACY)[0];
-            (p, state[4])
-        })
-        .collect()
-}
-
-fn relative_error(samples: &[(Vec<f64>, f64)], value: impl Fn(&[f64]) -> f64) -> f64 {
-    let mean = samples.iter().map(|(_, x)| x).sum::<f64>() / samples.len() as f64;
-    let spread: f64 = samples.iter().map(|(_, x)| (x - mean).powi(2)).sum();
-    let squares: f64 = samples.iter().map(|(p, x)| (value(p) - x).powi(2)).sum();
-    (squares / spread).sqrt()
+    Truth::new(&axes, &[end], 60, |p, times| {
+        let states = plate(p).trajectory(&start(p[4]), times, TOLERANCES);
+        states.iter().map(|state| [state[4], 0.0]).collect()
+    })
 }
 
 fn trajectory_error(low: f64, high: f64, end: f64, max_evaluations: usize) -> f64 {
@@ -66,7 +48,7 @@ fn trajectory_error(low: f64, high: f64, end: f64, max_evaluations: usize) -> f6
     let mut axes = parameters(low, high, 7);
     axes.push(Axis::spectral(0.5, 1.0, 9).unwrap());
     let model = |p: &[f64], times: &[f64], out: &mut [f64]| {
-        let states = plate(p).trajectory(&start(p[4]), times, ACCURACY);
+        let states = plate(p).trajectory(&start(p[4]), times, TOLERANCES);
         for (out, state) in out.iter_mut().zip(states) {
             *out = state[4];
         }
@@ -77,9 +59,11 @@ fn trajectory_error(low: f64, high: f64, end: f64, max_evaluations: usize) -> f6
         ..CrossParams::default()
     };
     let (surrogate, _) = TrajectorySurrogate::bake(time, 1, axes, model, &params).unwrap();
-    relative_error(&samples(low, high, end, 60), |p| {
-        surrogate.evaluate(p, &[end])[0]
-    })
+    let errors = truth(low, high, end).errors(|p, times| {
+        let positions = surrogate.evaluate(p, times);
+        positions.iter().map(|x| [*x, 0.0]).collect()
+    });
+    errors[0].1
 }
 
 /// A separated trajectory is accurate over a short time and useless over a long one that crosses
@@ -111,10 +95,10 @@ fn iterated_flow_maps_cross_the_transition() {
         plate(p).advance(
             &mut end,
             step,
-            Accuracy {
+            Tolerances {
                 relative: 1e-5,
                 absolute: 1e-5,
-                ..ACCURACY
+                ..TOLERANCES
             },
         );
         for k in 0..4 {
@@ -132,7 +116,7 @@ fn iterated_flow_maps_cross_the_transition() {
     let (map, report) =
         FlowMap::bake(step, state, parameters(1.1, 1.4, 3), 1, model, &params).unwrap();
     println!("{report:?}, ranks {:?}", map.train().ranks());
-    let position = |p: &[f64]| {
+    let position = |p: &[f64], _: &[f64]| {
         let mut x = start(p[4]);
         let (mut change, mut scratch) = ([0.0; 5], Vec::new());
         for _ in 0..80 {
@@ -144,9 +128,9 @@ fn iterated_flow_maps_cross_the_transition() {
                 x[k] += sign * change[k];
             }
         }
-        x[4]
+        vec![[x[4], 0.0]]
     };
-    let error = relative_error(&samples(1.1, 1.4, 20.0, 60), position);
+    let error = truth(1.1, 1.4, 20.0).errors(position)[0].1;
     println!("T = 20: {error:.1e}");
     assert!(error < 0.1, "{error:e}");
 }

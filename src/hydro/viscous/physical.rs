@@ -166,6 +166,8 @@ scalar_struct! {
 /// `C_D = (64/πRe)(1 + 0.138 Re^0.792)` for Re < 133 (Pitter, Pruppacher & Hamielec 1973), of which
 /// the first term is Stokes' and lives in the creeping resistance.
 const DISC_MID: (f64, f64) = (64.0 / PI * 0.138, 0.792 - 1.0);
+/// Reynolds number above which the mid range has long passed below the plateau (69 % of it).
+const MID_ENDS: f64 = 400.0;
 /// Broadside drag coefficient of a disc above Re ≈ 10³ (Hoerner, *Fluid-Dynamic Drag*).
 const DISC_PLATEAU: f64 = 1.17;
 
@@ -354,8 +356,12 @@ impl<T: Scalar> PhysicalConstants<T> {
 
         // Drag of the plate. Its creeping part is the linear resistance; what is left broadside is
         // the larger of the disc's mid range and its plateau.
-        let log_re = re.logarithm();
-        let mid = self.broadside_mid * (log_re * T::lit(DISC_MID.1)).exponential();
+        let mid = if re.all_from(MID_ENDS) {
+            T::zero()
+        } else {
+            let power = (re.logarithm() * T::lit(DISC_MID.1)).exponential();
+            (self.broadside_mid * power).where_less(re, T::lit(MID_ENDS), T::zero())
+        };
         let creeping_share = self.creeping_z * per_speed / self.dynamic_area;
         let broadside = mid.larger(self.broadside_plateau - creeping_share);
         let edgewise = self.friction / re.root() + self.edge_drag / chord;
