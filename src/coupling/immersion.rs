@@ -59,9 +59,8 @@ pub struct Immersion {
     pub(super) free: Vec<u32>,
     pub(super) warnings: Vec<Warning>,
     pub(super) sweep: u32,
-    /// Bodies that replay a series, and the series.
-    pub(super) players: Vec<Player>,
-    pub(super) series: Vec<ControlSeries>,
+    /// The series that bodies replay; `None` where there is room for one.
+    pub(super) series: Vec<Option<ControlSeries>>,
     /// Whether bodies may have to enter or leave the fluid.
     #[cfg_attr(feature = "serde-serialize", serde(skip, default = "yes"))]
     pub(super) changed: bool,
@@ -90,8 +89,8 @@ pub(super) struct Slot {
     pub handle: RigidBodyHandle,
     pub description: u32,
     pub enabled: bool,
-    /// Whether the body touched or was held by something in the last step.
-    pub touching: bool,
+    /// What the body replays, if it does.
+    pub player: Option<Player>,
     /// Factors on the law's drag, rotational lift and translational lift.
     pub control: [f32; 3],
     /// What rapier's body was before; `None` while it is not immersed.
@@ -208,7 +207,6 @@ impl Immersion {
             free: Vec::new(),
             warnings: Vec::new(),
             sweep: 0,
-            players: Vec::new(),
             series: Vec::new(),
             changed: false,
             flow: None,
@@ -276,7 +274,7 @@ impl Immersion {
             handle,
             description,
             enabled: true,
-            touching: false,
+            player: None,
             control: [1.0; 3],
             original: None,
             kind: NONE,

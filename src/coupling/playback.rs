@@ -1,6 +1,6 @@
 //! Control of single bodies: factors on the law's forces, set by hand or replayed from a codebook.
 
-use super::immersion::Immersion;
+use super::immersion::{Immersion, Slot};
 use crate::motion::ControlSeries;
 use rapier3d::dynamics::RigidBodyHandle;
 
@@ -21,19 +21,42 @@ pub enum OnContact {
     Ignore,
 }
 
-/// A body that replays a series.
-#[derive(Clone, Debug)]
+/// What a body replays.
+#[derive(Clone, Copy, Debug)]
 #[cfg_attr(
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub(super) struct Player {
-    pub handle: RigidBodyHandle,
     /// Index of the series.
     series: u32,
+    on_contact: OnContact,
     /// Seconds since its beginning.
     clock: f64,
-    on_contact: OnContact,
+}
+
+impl Slot {
+    /// Sets the control of a body that replays a series for a step of `dt`, and moves its clock on.
+    #[inline]
+    pub fn replay(&mut self, touching: bool, series: &[Option<ControlSeries>], dt: f64) {
+        let Some(player) = &mut self.player else {
+            return;
+        };
+        let Some(series) = &series[player.series as usize] else {
+            return;
+        };
+        if touching && player.on_contact != OnContact::Ignore {
+            self.control = [1.0; 3];
+            if player.on_contact == OnContact::Stop {
+                self.player = None;
+            } else {
+                player.clock = series.dwell_start(player.clock);
+            }
+        } else {
+            self.control = series.at(player.clock);
+            player.clock += dt;
+        }
+    }
 }
 
 impl Immersion {
@@ -43,40 +66,37 @@ impl Immersion {
     ///
     /// Unknown handles, and factors that are not finite or have a negative drag, are ignored.
     pub fn set_control(&mut self, handle: RigidBodyHandle, control: [f32; 3]) {
-        self.stop(handle);
-        self.put_control(handle, control);
+        let valid = control.iter().all(|c| c.is_finite()) && control[0] >= 0.0;
+        if let Some(slot) = self.slot_mut(handle).filter(|_| valid) {
+            slot.player = None;
+            slot.control = control;
+        }
     }
 
     /// Lets a body replay a series from its beginning, at the next step; after its last entry that one
     /// stays. The body must be under the law that the series was planned for
-    /// ([`Codebook::law`](crate::motion::Codebook)). Unknown handles are ignored.
+    /// ([`Codebook::law`](crate::motion::Codebook)). A body that is held by a joint counts as touching:
+    /// its series begins when it breaks loose. Unknown handles are ignored.
     pub fn play(&mut self, handle: RigidBodyHandle, series: &ControlSeries, on_contact: OnContact) {
-        if !self.contains(handle) {
+        let Some(index) = self.slot_index(handle) else {
             return;
+        };
+        let series = self.series_index(series);
+        if let Some(slot) = &mut self.slots[index] {
+            slot.player = Some(Player {
+                series,
+                on_contact,
+                clock: 0.0,
+            });
         }
-        self.stop(handle);
-        let known = self.series.iter().rposition(|known| known == series);
-        let index = known.unwrap_or_else(|| {
-            self.series.push(series.clone());
-            self.series.len() - 1
-        });
-        self.players.push(Player {
-            handle,
-            series: index as u32,
-            clock: 0.0,
-            on_contact,
-        });
     }
 
     /// Stops the series that a body replays: it goes on under its own law. Nothing to stop is no error.
     pub fn stop(&mut self, handle: RigidBodyHandle) {
-        let before = self.players.len();
-        self.players.retain(|player| player.handle != handle);
-        if self.players.is_empty() {
-            self.series.clear();
-        }
-        if self.players.len() < before {
-            self.put_control(handle, [1.0; 3]);
+        if let Some(slot) = self.slot_mut(handle)
+            && slot.player.take().is_some()
+        {
+            slot.control = [1.0; 3];
         }
     }
 
@@ -87,43 +107,36 @@ impl Immersion {
 
     /// How far a body has come in the series that it replays, s; `None` if it replays none.
     pub fn playing_at(&self, handle: RigidBodyHandle) -> Option<f64> {
-        let mut players = self.players.iter();
-        players.find(|p| p.handle == handle).map(|p| p.clock)
+        self.slot(handle)?.player.map(|player| player.clock)
     }
 
-    fn put_control(&mut self, handle: RigidBodyHandle, control: [f32; 3]) {
-        let valid = control.iter().all(|c| c.is_finite()) && control[0] >= 0.0;
-        if let Some(slot) = self.slot_mut(handle).filter(|_| valid) {
-            slot.control = control;
+    /// Where a series is kept, equal ones once. When their number has doubled, those that no body
+    /// replays any more make room.
+    fn series_index(&mut self, series: &ControlSeries) -> u32 {
+        let known = |kept: &Option<ControlSeries>| kept.as_ref() == Some(series);
+        if let Some(index) = self.series.iter().rposition(known) {
+            return index as u32;
         }
-    }
-
-    /// Sets every player's control for a step of `dt`, and moves its clock on.
-    pub(super) fn advance_players(&mut self, dt: f64) {
-        let mut index = 0;
-        while index < self.players.len() {
-            let player = &mut self.players[index];
-            let (handle, on_contact) = (player.handle, player.on_contact);
-            let series = &self.series[player.series as usize];
-            let slot = self.lookup.get(handle.into_raw_parts().0 as usize);
-            let slot = slot.and_then(|slot| self.slots.get_mut(*slot as usize)?.as_mut());
-            let Some(slot) = slot.filter(|slot| slot.handle == handle) else {
-                self.players.swap_remove(index);
-                continue;
-            };
-            if slot.touching && on_contact != OnContact::Ignore {
-                slot.control = [1.0; 3];
-                if on_contact == OnContact::Stop {
-                    self.players.swap_remove(index);
-                    continue;
-                }
-                player.clock = series.dwell_start(player.clock);
-            } else {
-                slot.control = series.at(player.clock);
-                player.clock += dt;
+        if self.series.len() >= 16 && self.series.len().is_power_of_two() {
+            let mut used = vec![false; self.series.len()];
+            for player in self.slots.iter().flatten().filter_map(|slot| slot.player) {
+                used[player.series as usize] = true;
             }
-            index += 1;
+            for (kept, used) in self.series.iter_mut().zip(used) {
+                if !used {
+                    *kept = None;
+                }
+            }
         }
+        let index = match self.series.iter().position(Option::is_none) {
+            Some(index) => index,
+            None => {
+                self.series.push(None);
+                self.series.len() - 1
+            }
+        };
+        self.series[index] = Some(series.clone());
+        index as u32
     }
 }
 
@@ -190,7 +203,7 @@ mod tests {
         }
         immersion.stop(leaf);
         assert_eq!(immersion.control(leaf), Some([1.0; 3]));
-        assert!(immersion.players.is_empty() && immersion.series.is_empty());
+        assert_eq!(immersion.playing_at(leaf), None);
     }
 
     /// On the floor the law is the body's own; thrown up again, the pattern begins anew.
@@ -235,6 +248,20 @@ mod tests {
         }
         assert_eq!(immersion.playing_at(leaf), None);
         immersion.play(leaf, &series(), OnContact::Restart);
-        assert!(immersion.players.is_empty());
+        assert_eq!(immersion.playing_at(leaf), None);
+    }
+
+    /// Ever new series for one body do not pile up.
+    #[test]
+    fn series_make_room() {
+        let (_, leaf, mut immersion) = world(9.0);
+        for i in 0..1000 {
+            let other = ControlSeries::new(1.0 + f64::from(i), vec![[1.0; 3]], Vec::new());
+            immersion.play(leaf, &other.unwrap(), OnContact::Restart);
+        }
+        assert!(immersion.series.len() <= 32);
+        let kept = immersion.slot(leaf).and_then(|slot| slot.player).unwrap();
+        let kept = immersion.series[kept.series as usize].as_ref().unwrap();
+        assert_eq!(kept.interval(), 1000.0);
     }
 }

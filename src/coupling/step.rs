@@ -131,7 +131,6 @@ impl Immersion {
         let dt = sets.integration_parameters.dt;
         self.gravity = sets.gravity;
         if self.enabled && dt > 0.0 {
-            self.advance_players(dt.into());
             let mut scratch = std::mem::take(&mut self.scratch);
             scratch.borrowed.clear();
             let clock = Clock {
@@ -389,6 +388,7 @@ impl Immersion {
             None
         };
         let held = is_held(body, handle, sets);
+        slot.replay(normal.is_some() || held, &self.series, clock.dt.into());
         let wanted = match normal {
             Some(normal) => contact::mass_along(kind, body, normal) as Real,
             None => kind.constants.dry.mass as Real,
@@ -598,7 +598,6 @@ impl Immersion {
             original.set_mass(kind, mass, flyer.handle, sets.bodies, sets.colliders);
             slot.flight.solver_mass = flyer.solver_mass;
         }
-        slot.touching = flyer.may_sleep;
         slot.flight.motion = landing.motion;
         slot.flight.end_linear = vector(landing.end_linear);
         slot.flight.end_angular = vector(landing.end_angular);
