@@ -3,9 +3,11 @@
 use crate::Context;
 use crate::draw::{Item, Panel, Point, color, isometric};
 use plotters::style::RGBColor;
+use rapier3d_immersed::coupling::{FollowParams, Sketch};
 use rapier3d_immersed::flow::FlowSample;
-use rapier3d_immersed::motion::{Classifier, MotionGraph, Numbers, Pattern, Trajectory};
+use rapier3d_immersed::motion::{Classifier, Moment, MotionGraph, Numbers, Pattern, Trajectory};
 use rapier3d_immersed::rapier3d::na::Vector3;
+use rapier3d_immersed::rapier3d::prelude::{ColliderBuilder, MassProperties, Vector};
 use rapier3d_immersed::training::{
     Experiment, Plan, Planner, PlannerParams, Subspaces, thin_ellipsoid,
 };
@@ -77,7 +79,8 @@ pub fn four_patterns(context: &Context) -> Result<Value, Error> {
         rows.push(json!({ "pattern": pattern.abbreviation(), "d_cm": d,
             "e": spread.eccentricity, "direct": seen.abbreviation() }));
     }
-    let title = "The card of Fig. 5.6 under the law as printed, from rest, 10°, 3 s";
+    let title =
+        "The card of Fig. 5.6 under the law as printed, from rest, 10°, 3 s (scales differ)";
     context.write("fig_5_6_patterns.svg", title, &panels, 4, (330, 520));
     Ok(json!(rows))
 }
@@ -88,6 +91,7 @@ pub fn helix(context: &Context) -> Result<Value, Error> {
     let mut experiment = Experiment::new(hydro, mass, Fluid::AIR);
     experiment.release.tilt = 45f64.to_radians();
     experiment.release.tilt_axis = 86f64.to_radians();
+    experiment.seconds = 12.0;
     let fall = experiment.run()?;
     let seen = Classifier::default().classify(&fall);
     let mut space = Panel::bare("in space");
@@ -96,7 +100,7 @@ pub fn helix(context: &Context) -> Result<Value, Error> {
         .push(in_space(&fall, color(Pattern::Autorotation), 1));
     let mut above = Panel::new("from above", "x, cm", "z, cm").equal();
     above.items = from_above(&fall, color(Pattern::Autorotation));
-    let title = "Fig. 5.5: card of 5 × 3 × 0.01 cm, 1200 kg/m³, released at 45°, default law";
+    let title = "Fig. 5.5: card of 5 × 3 × 0.01 cm, 1200 kg/m³, released at 45°, default law, 12 s";
     context.write("fig_5_5_helix.svg", title, &[space, above], 2, (470, 620));
     Ok(json!({ "regime": seen.regime.abbreviation(), "half_turns": seen.flips }))
 }
@@ -146,7 +150,7 @@ pub fn effects(context: &Context, seed: u64) -> Result<Value, Error> {
         let end = fall.moments[fall.moments.len() - 1].position;
         rows.push(json!({ "case": name, "end": [end.x, end.y, end.z] }));
     }
-    let title = "Fig. 5.13: effects switched on one by one; card of 4 × 2 × 0.04 cm, 30°, 1.2 s";
+    let title = "Fig. 5.13: effects switched on one by one; card of 4 × 2 × 0.04 cm, 30°, 1.2 s (scales differ)";
     context.write("fig_5_13_effects.svg", title, &panels, 6, (250, 560));
     Ok(json!(rows))
 }
@@ -183,7 +187,7 @@ fn in_turbulence(
     let mut body = experiment.released()?;
     let mut fall = Trajectory {
         interval: experiment.dt,
-        moments: vec![rapier3d_immersed::motion::Moment::of(&body)],
+        moments: vec![Moment::of(&body)],
     };
     for step in 0..experiment.steps() {
         let speed = body.linear_velocity().norm() as f32;
@@ -194,8 +198,7 @@ fn in_turbulence(
             ..FlowSample::default()
         };
         body.step_in(experiment.dt, experiment.gravity_vector(), &flow);
-        fall.moments
-            .push(rapier3d_immersed::motion::Moment::of(&body));
+        fall.moments.push(Moment::of(&body));
     }
     Ok(fall)
 }
@@ -227,7 +230,7 @@ fn stretches(plan: &Plan) -> impl Iterator<Item = (Pattern, Trajectory)> + '_ {
 pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Error> {
     let sequence = [Pattern::SteadyDescent, Pattern::Autorotation];
     let plan = planner.plan_sequence(&sequence, seed)?;
-    let mut path = Panel::new("the fall", "x, cm", "y, cm").equal();
+    let mut path = Panel::new("the fall (scales differ)", "x, cm", "y, cm");
     let turned = Plan {
         fall: turned_to_drift(&plan.fall),
         ..plan.clone()
@@ -249,7 +252,7 @@ pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Er
         }
         let top = steps.iter().fold(0.0f64, |m, p| m.max(p.1));
         controls.items.push(Item::Line(steps, colors[k], 2));
-        let at = (0.25 * series.duration(), 3.5 - 0.22 * k as f64);
+        let at = (0.3 * series.duration(), 4.5 - 0.25 * k as f64);
         controls.items.push(Item::Label(
             at,
             format!("{} (≤ {top:.2})", names[k]),
@@ -268,7 +271,7 @@ pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Er
             .items
             .push(Item::Line(instant.collect(), colors[k], 1));
     }
-    controls.window = Some([(0.0, plan.series.duration()), (0.0, 3.8)]);
+    controls.window = Some([(0.0, plan.series.duration()), (0.0, 4.8)]);
     let title = "A leaf of 7.3 × 4.2 × 0.03 cm: steady descent (red), then autorotation (magenta), Figs. 5.14, 5.15";
     context.write(
         "fig_5_14_leaf.svg",
@@ -309,5 +312,86 @@ pub fn tree(context: &Context, planner: &Planner, seed: u64, leaves: u64) -> Res
          (red SD, magenta AR, blue AZ, green ZZ)"
     );
     context.write("fig_5_16_tree.svg", &title, &[panel, above], 2, (640, 820));
+    Ok(json!(rows))
+}
+
+/// A path of five points, drawn by a user, and how the leaf follows it in rapier.
+pub fn sketches(context: &Context, experiment: &Experiment, seed: u64) -> Result<Value, Error> {
+    let v = Vector3::new;
+    let swing = [
+        (0.0, v(0.0, 2.0, 0.0)),
+        (0.5, v(0.15, 1.6, 0.0)),
+        (1.0, v(0.0, 1.2, 0.0)),
+        (1.5, v(0.15, 0.8, 0.0)),
+        (2.0, v(0.0, 0.4, 0.0)),
+    ];
+    let glide = [
+        (0.0, v(0.0, 2.0, 0.0)),
+        (0.5, v(0.2, 1.6, 0.0)),
+        (1.0, v(0.5, 1.2, 0.0)),
+        (1.5, v(0.8, 0.8, 0.0)),
+        (2.0, v(1.0, 0.4, 0.0)),
+    ];
+    let landing = Sketch::landing(
+        experiment,
+        v(0.0, 2.0, 0.0),
+        &[v(0.35, 1.0, 0.0)],
+        v(0.1, 0.0, 0.0),
+    )?;
+    let named = [
+        ("a swing of five points", Sketch::new(swing.to_vec())?),
+        ("a glide", Sketch::new(glide.to_vec())?),
+        ("pass there, land here", landing),
+    ];
+    let extents = experiment.body.hydro.planform.half_extents.cast::<f32>();
+    let density = experiment.mass.mass / experiment.body.hydro.volume;
+    let ball = ColliderBuilder::ball(1e-4);
+    let inertia = experiment.mass.inertia.diagonal().cast::<f32>();
+    let collider = ball.mass_properties(MassProperties::new(
+        Vector::ZERO,
+        experiment.mass.mass as f32,
+        Vector::new(inertia.x, inertia.y, inertia.z),
+    ));
+    let params = FollowParams {
+        seed,
+        ..FollowParams::default()
+    };
+    let (mut panels, mut rows) = (Vec::new(), Vec::new());
+    for (name, sketch) in named {
+        let found = sketch.follow(experiment, collider.clone(), &params)?;
+        let title = format!(
+            "{name}: {:.1} cm off on average",
+            100.0 * found.mean_distance
+        );
+        let mut panel = Panel::new(title, "x, cm", "y, cm").equal();
+        let count = (sketch.duration() / experiment.dt) as usize;
+        let drawn = (0..=count).map(|i| sketch.at(i as f64 * experiment.dt));
+        let flat = |p: Vector3<f64>| (100.0 * p.x, 100.0 * p.y);
+        panel
+            .items
+            .push(Item::Dashed(drawn.map(flat).collect(), GREY));
+        let path = found.path.iter().copied().map(flat).collect();
+        panel.items.push(Item::Line(path, BLUE, 2));
+        let points = sketch.points().iter().map(|(_, p)| flat(*p)).collect();
+        panel
+            .items
+            .push(Item::Dots(points, RGBColor(211, 47, 47), 5));
+        panels.push(panel);
+        rows.push(json!({
+            "name": name,
+            "mean_cm": 100.0 * found.mean_distance,
+            "largest_cm": 100.0 * found.largest_distance,
+            "at_points_cm": found.at_points.iter().map(|d| 100.0 * d).collect::<Vec<_>>(),
+        }));
+        context.say(format!(
+            "{name}: {:.1} cm off on average, {:.1} cm at most; the leaf is {:.1} cm long ({density:.0} kg/m³)",
+            100.0 * found.mean_distance,
+            100.0 * found.largest_distance,
+            200.0 * extents.x
+        ));
+    }
+    let title =
+        "Sketched paths (dashed, through the red points) and the leaf that follows them in rapier";
+    context.write("sketches.svg", title, &panels, 3, (430, 620));
     Ok(json!(rows))
 }

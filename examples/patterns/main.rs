@@ -164,6 +164,7 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
         "fig_5_13": falls::effects(&context, seed)?,
         "fig_5_14": falls::leaf(&context, &planner, seed)?,
         "fig_5_16": falls::tree(&context, &planner, seed, arguments.leaves)?,
+        "sketches": falls::sketches(&context, &free_leaf, seed)?,
         "step_error": if arguments.step_error {
             json!([training::step_error(&card)?, training::step_error(&free_leaf)?])
         } else {

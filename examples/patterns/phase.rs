@@ -120,7 +120,7 @@ pub fn draw(context: &Context, arguments: &BodyArguments) -> Result<Value, Error
         (Regime::SteadyDescent, 45.0, 4e-3),
         (Regime::PeriodicFlutter, 600.0, 2e-3),
         (Regime::TransitionalChaotic, 2500.0, 1.9e-2),
-        (Regime::PeriodicTumbling, 2500.0, 0.12),
+        (Regime::PeriodicTumbling, 500.0, 0.12),
         (Regime::TransitionalHelix, 3000.0, 5.3e-3),
         (Regime::PeriodicSpiral, 6000.0, 7e-4),
     ] {

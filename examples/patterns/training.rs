@@ -48,8 +48,6 @@ impl Trained {
         self.sweep.samples().iter().flatten()
     }
 
-    /// Largest share of equal labels that any renaming of the clusters would give is not looked for: the
-    /// names are by rule.
     fn agreement(&self) -> f64 {
         self.clusters.agreement(self.samples())
     }
@@ -65,7 +63,7 @@ impl Trained {
                 .items
                 .push(Item::Dots(points.collect(), color(pattern), 2));
         }
-        panel.window = Some([(-1.3, 4.0), (0.0, 1.03)]);
+        panel.window = Some([(-1.3, 4.0), (0.0, 1.05)]);
         panel
     }
 
@@ -221,8 +219,7 @@ pub fn subspaces(
     }
     let simulated = fine.simulated() - trained.sweep.simulated();
     let title = format!(
-        "Subspaces of the {} after refinement (Fig. 5.10): {} nodes, {simulated} new falls; red SD, \
-         magenta AR, blue AZ, green ZZ",
+        "Subspaces (Fig. 5.10), {}: {} nodes, {simulated} new falls; red SD, magenta AR, blue AZ, green ZZ",
         trained.name,
         fine.grid().len()
     );

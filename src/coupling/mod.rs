@@ -10,8 +10,10 @@ mod original;
 mod playback;
 pub mod preset;
 mod readout;
+mod sketch;
 mod step;
 
 pub use immersion::{Immersion, Warning};
 pub use playback::OnContact;
+pub use sketch::{FollowParams, Followed, Sketch};
 pub use step::RapierSets;

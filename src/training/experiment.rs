@@ -25,6 +25,8 @@ pub struct Release {
     /// π/2 the long one (default 3°: a body that dips exactly along an axis of symmetry stays in a
     /// plane for ever, which no real one does).
     pub tilt_axis: f64,
+    /// Turn about the vertical that comes on top, rad (default 0).
+    pub heading: f64,
     /// Velocity, m/s (default 0).
     pub velocity: Vector3<f64>,
     /// Angular velocity, rad/s (default 0).
@@ -36,6 +38,7 @@ impl Default for Release {
         Self {
             tilt: 10f64.to_radians(),
             tilt_axis: 3f64.to_radians(),
+            heading: 0.0,
             velocity: Vector3::zeros(),
             spin: Vector3::zeros(),
         }
@@ -53,7 +56,10 @@ impl Release {
         let (sine, cosine) = self.tilt_axis.sin_cos();
         let axis = Unit::new_unchecked(Vector3::new(sine, 0.0, -cosine));
         let tilt = Rotation3::from_axis_angle(&axis, self.tilt);
-        UnitQuaternion::from_rotation_matrix(&(tilt * level * hydro.planform.axes.inverse()))
+        let heading = Rotation3::from_axis_angle(&Vector3::y_axis(), self.heading);
+        UnitQuaternion::from_rotation_matrix(
+            &(heading * tilt * level * hydro.planform.axes.inverse()),
+        )
     }
 
     /// The same as rapier's rotation, for a body whose frame `hydro` refers to.
@@ -66,6 +72,7 @@ impl Release {
     pub fn check(&self) -> Result<(), Error> {
         Error::check_finite("tilt", self.tilt)?;
         Error::check_finite("tilt_axis", self.tilt_axis)?;
+        Error::check_finite("heading", self.heading)?;
         Error::check_all_finite("release velocity", self.velocity.as_slice())?;
         Error::check_all_finite("release spin", self.spin.as_slice())
     }

@@ -2,4 +2,5 @@
 
 mod annealing;
 mod sequences;
+mod sketch;
 mod support;

@@ -59,6 +59,11 @@ impl Leaf {
 
     /// Plays every series with a leaf of its own, far from the others, in one rapier world.
     pub fn play(&self, series: &[&ControlSeries]) -> Vec<Trajectory> {
+        self.play_from(&self.experiment.release, series)
+    }
+
+    /// The same from another release.
+    pub fn play_from(&self, release: &Release, series: &[&ControlSeries]) -> Vec<Trajectory> {
         let mut world = PhysicsWorld::new();
         world.integration_parameters.dt = self.experiment.dt as f32;
         let mut immersion = Immersion::new(Fluid::AIR);
@@ -67,9 +72,7 @@ impl Leaf {
             .iter()
             .enumerate()
             .map(|(i, series)| {
-                let body = self
-                    .released(&self.experiment.release)
-                    .translation(origin(i));
+                let body = self.released(release).translation(origin(i));
                 let (handle, _) = world.insert(body, collider());
                 immersion.insert(handle, self.experiment.body.clone());
                 immersion.play(handle, series, OnContact::Restart);
