@@ -39,7 +39,7 @@ struct Arguments {
     /// Only the phase diagram
     #[arg(long)]
     phase_only: bool,
-    /// Also count the labels that finer time steps change (half a minute)
+    /// Also count the labels that the time step and the release change (half a minute)
     #[arg(long)]
     step_error: bool,
     /// Print numbers as JSON instead of text
@@ -139,15 +139,26 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     let mut free_card = card.clone();
     free_card.body.law = ViscousLaw::default();
     free_card.release = free_leaf.release;
+    let trainee = |experiment: &Experiment| experiment.clone().for_training();
     let trained = [
-        Trained::new("card, thesis law", &card, 9, PI, seed)?,
-        Trained::new("leaf, thesis law, to 2π", &leaf, 11, 2.0 * PI, seed)?,
-        Trained::new("card, default law", &free_card, 9, PI, seed)?,
-        Trained::new("leaf, default law", &free_leaf, 9, PI, seed)?,
+        Trained::new("card, thesis law", &trainee(&card), 9, PI, seed)?,
+        Trained::new(
+            "leaf, thesis law, to 2π",
+            &trainee(&leaf),
+            11,
+            2.0 * PI,
+            seed,
+        )?,
+        Trained::new("card, default law", &trainee(&free_card), 9, PI, seed)?,
+        Trained::new("leaf, default law", &trainee(&free_leaf), 9, PI, seed)?,
     ];
     let clusters = training::clusters(&context, &trained);
-    let (_, card_subspaces) =
-        training::subspaces(&context, &card, &trained[0], "fig_5_10_thesis_law.svg")?;
+    let (_, card_subspaces) = training::subspaces(
+        &context,
+        &trainee(&card),
+        &trained[0],
+        "fig_5_10_thesis_law.svg",
+    )?;
     let (leaf_space, leaf_subspaces) = training::subspaces(
         &context,
         &free_leaf,

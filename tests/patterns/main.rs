@@ -4,3 +4,4 @@ mod annealing;
 mod sequences;
 mod sketch;
 mod support;
+mod training;

@@ -26,9 +26,11 @@ pub static LEAF: LazyLock<Leaf> = LazyLock::new(|| {
     experiment.release.tilt_axis = 80f64.to_radians();
     let mut sweep = Sweep::new(Grid::of_coefficients(9, PI).unwrap());
     sweep
-        .run_coefficients(&experiment, &Classifier::default(), |_, _| {
-            ControlFlow::Continue(())
-        })
+        .run_coefficients(
+            &experiment.clone().for_training(),
+            &Classifier::default(),
+            |_, _| ControlFlow::Continue(()),
+        )
         .unwrap();
     let subspaces = Subspaces::new(sweep.grid().clone(), sweep.patterns().unwrap()).unwrap();
     Leaf {
