@@ -251,6 +251,19 @@ mod tests {
         assert_eq!(immersion.playing_at(leaf), None);
     }
 
+    #[cfg(feature = "serde-serialize")]
+    #[test]
+    fn a_snapshot_goes_on_playing() {
+        let (mut world, leaf, mut immersion) = world(9.0);
+        immersion.play(leaf, &series(), OnContact::Restart);
+        (0..5).for_each(|_| immersion.step(&mut world));
+        let bytes = postcard::to_stdvec(&immersion).unwrap();
+        let mut loaded: Immersion = postcard::from_bytes(&bytes).unwrap();
+        assert_eq!(loaded.playing_at(leaf), immersion.playing_at(leaf));
+        loaded.step(&mut world);
+        assert_eq!(loaded.control(leaf), Some(series().controls()[5]));
+    }
+
     /// Ever new series for one body do not pile up.
     #[test]
     fn series_make_room() {

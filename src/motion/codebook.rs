@@ -3,6 +3,7 @@
 use super::pattern::Pattern;
 use crate::Error;
 use crate::hydro::ViscousLaw;
+use rand::{Rng, RngExt};
 
 /// A stretch of a series in which one pattern is meant to be seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -208,6 +209,11 @@ impl Codebook {
         self.series
             .iter()
             .filter(move |series| series.sequence() == sequence)
+    }
+
+    /// A series at random, each as likely: a style for one of many leaves.
+    pub fn draw(&self, random: &mut impl Rng) -> &ControlSeries {
+        &self.series[random.random_range(0..self.series.len())]
     }
 
     /// This as the bytes of a file.

@@ -12,7 +12,7 @@
 //! tried. Draws of *patterns* are never repeated, so that their statistics stay those of the graph.
 //!
 //! Measured (test `patterns`, 200 plans for a leaf played back in rapier): the sequence that is seen is
-//! the planned one in 184 of 200 runs; in 60 without watching.
+//! the planned one in 183 of 200 runs, in about 60 without watching.
 
 use super::energy::{ControlBox, EnergyObjective};
 use super::experiment::Experiment;
@@ -21,7 +21,8 @@ use crate::Error;
 use crate::dynamics::FreeBody;
 use crate::math::to_real;
 use crate::motion::{
-    Classifier, ControlSeries, Dwell, Moment, MotionGraph, Pattern, Trajectory, TurnFinder,
+    Classifier, Codebook, ControlSeries, Dwell, Moment, MotionGraph, Pattern, Trajectory,
+    TurnFinder,
 };
 use crate::turbulence::{Turbulence, TurbulenceState, kolmogorov_constant};
 use rand::{RngExt, SeedableRng};
@@ -257,6 +258,26 @@ impl Planner {
         }
         let mut rest = sequence.iter();
         self.run(seed, |_| rest.next().copied())
+    }
+
+    /// A codebook of plans, one per seed, under the experiment's law.
+    ///
+    /// # Errors
+    /// Those of [`Planner::plan`]; [`Error::WrongLength`] if there is no seed.
+    pub fn codebook(
+        &self,
+        body: impl Into<String>,
+        seeds: std::ops::Range<u64>,
+    ) -> Result<Codebook, Error> {
+        let series = |seed| Ok(self.plan(seed)?.series);
+        #[cfg(feature = "bake")]
+        let series: Result<Vec<ControlSeries>, Error> = {
+            use rayon::prelude::*;
+            seeds.into_par_iter().map(series).collect()
+        };
+        #[cfg(not(feature = "bake"))]
+        let series: Result<Vec<ControlSeries>, Error> = seeds.map(series).collect();
+        Codebook::new(body, self.experiment.body.law, series?)
     }
 
     fn run(&self, seed: u64, mut next: impl FnMut(f64) -> Option<Pattern>) -> Result<Plan, Error> {

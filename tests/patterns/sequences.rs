@@ -133,6 +133,9 @@ fn a_seed_gives_one_plan() {
     let planner = LEAF.planner(PlannerParams::default());
     assert_eq!(planner.plan(7).unwrap(), PLANS[7]);
     assert_ne!(PLANS[7].series, PLANS[8].series);
+    let book = planner.codebook("leaf", 5..9).unwrap();
+    let planned: Vec<&ControlSeries> = PLANS[5..9].iter().map(|plan| &plan.series).collect();
+    assert!(book.series().iter().eq(planned));
     let sequence = [Pattern::Zigzag, Pattern::Autorotation];
     let asked = planner.plan_sequence(&sequence, 3).unwrap();
     // A user may ask for what the graph would never draw.
