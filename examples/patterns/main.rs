@@ -157,12 +157,14 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
         &context,
         &trainee(&card),
         &trained[0],
+        false,
         "fig_5_10_thesis_law.svg",
     )?;
     let (leaf_space, leaf_subspaces) = training::subspaces(
         &context,
         &free_leaf,
         &trained[3],
+        true,
         "fig_5_10_default_law.svg",
     )?;
     let planner = falls::planner(&free_leaf, &leaf_space)?;

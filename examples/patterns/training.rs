@@ -190,13 +190,16 @@ pub fn subspaces(
     context: &Context,
     experiment: &Experiment,
     trained: &Trained,
+    direct: bool,
     file: &str,
 ) -> Result<(Subspaces, Value), Error> {
     let start = Instant::now();
-    let mut fine = trained.sweep.refined(|sample| sample.pattern())?;
+    let label = |sample: &Sample| trained.label(sample, direct);
+    let mut fine = trained.sweep.refined(label)?;
     run(&mut fine, experiment)?;
     let seconds = start.elapsed().as_secs_f64();
-    let subspaces = Subspaces::new(fine.grid().clone(), fine.patterns()?)?;
+    let labels = fine.samples().iter().flatten().map(label).collect();
+    let subspaces = Subspaces::new(fine.grid().clone(), labels)?;
     let axis = fine.grid().axes()[0];
     let half = 0.5 * axis.spacing();
     let mut panels = Vec::new();
@@ -217,17 +220,18 @@ pub fn subspaces(
         panel.window = Some([(0.0, axis.high + half); 2]);
         panels.push(panel);
     }
+    let who = if direct { "direct" } else { "k-means" };
     let simulated = fine.simulated() - trained.sweep.simulated();
     let title = format!(
-        "Subspaces (Fig. 5.10), {}: {} nodes, {simulated} new falls; red SD, magenta AR, blue AZ, green ZZ",
+        "Subspaces (Fig. 5.10), {}, {who}: {} nodes, {simulated} new falls; red SD, magenta AR, blue AZ, green ZZ",
         trained.name,
         fine.grid().len()
     );
-    context.write(file, &title, &panels, 3, (340, 340));
+    context.write(file, &title, &panels, 3, (350, 350));
     let fractions = subspaces.volume_fractions();
-    let steady: Vec<usize> = regions(&fine, |s| s.pattern());
+    let steady = regions(&fine, label);
     context.say(format!(
-        "{}: refined to {} nodes with {simulated} new falls in {seconds:.2} s; shares SD {:.2}, AR {:.2}, \
+        "{}, {who}: refined to {} nodes with {simulated} new falls in {seconds:.2} s; shares SD {:.2}, AR {:.2}, \
          AZ {:.2}, ZZ {:.2}; large regions of SD: {steady:?} nodes",
         trained.name,
         fine.grid().len(),
@@ -238,6 +242,7 @@ pub fn subspaces(
     ));
     let value = json!({
         "name": trained.name,
+        "labels": who,
         "nodes": fine.grid().len(),
         "new_falls": simulated,
         "seconds": seconds,
