@@ -4,8 +4,10 @@
 //! bodies, the marginal cost from medians of runs that alternate between plain and immersed.
 
 use criterion::{BenchmarkId, Criterion};
+use rapier3d_immersed::flow::GridFlow;
 use rapier3d_immersed::motion::{ControlSeries, Dwell, Pattern};
 use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::turbulence::{NoiseStream, Turbulence, TurbulenceState};
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, OnContact, RapierSets};
 use std::time::{Duration, Instant};
 
@@ -32,6 +34,49 @@ fn immersed(world: &PhysicsWorld, handles: &[RigidBodyHandle]) -> Immersion {
     let mut immersion = Immersion::new(Fluid::AIR);
     immersion.insert_all(handles.iter().copied(), hydro);
     immersion
+}
+
+/// A gusty wind on a grid, as a user would load one.
+fn grid_wind() -> GridFlow {
+    let noise = NoiseStream::new(3, 0);
+    let velocities: Vec<_> = (0..32 * 32 * 32)
+        .map(|i| Vector::X * 3.0 + noise.vector(i, 0))
+        .collect();
+    let spacing = Vector::splat(0.5);
+    GridFlow::new([32; 3], [true; 3], Vector::ZERO, spacing, &velocities).unwrap()
+}
+
+fn turbulence() -> Turbulence {
+    Turbulence::Homogeneous(TurbulenceState {
+        kinetic_energy: 0.1,
+        dissipation: 0.05,
+    })
+}
+
+/// Time per body of `before_step` in still, stirred and windy air, in turn: what turbulence and wind
+/// add.
+fn added(count: usize, rounds: usize) -> [Vec<f64>; 3] {
+    let mut runs = [(); 3].map(|()| {
+        let (world, handles) = leaves(count);
+        let immersion = immersed(&world, &handles);
+        (world, immersion)
+    });
+    runs[1].1.set_turbulence(turbulence());
+    runs[2].1.set_flow(grid_wind());
+    let mut times = [const { Vec::new() }; 3];
+    for round in 0..rounds + 10 {
+        for ((world, immersion), list) in runs.iter_mut().zip(&mut times) {
+            let start = Instant::now();
+            immersion.before_step(&mut RapierSets::of(world));
+            let before = start.elapsed();
+            world.step();
+            immersion.after_step(&mut RapierSets::of(world));
+            if round >= 10 {
+                list.push(before.as_secs_f64() * 1e9 / count as f64);
+            }
+        }
+    }
+    times
 }
 
 /// Time of one step, plain and immersed in turn, and of the hook alone. Warm-up is not counted.
@@ -172,6 +217,13 @@ fn main() {
         );
     }
     let count = if quick { 100 } else { 10_000 };
+    let [still, stirred, windy] =
+        added(count, if quick { 3 } else { 60 }).map(|mut times| median(&mut times));
+    println!(
+        "immersion: {count} bodies: turbulence adds {:.0} ns, grid wind {:.0} ns per body-step",
+        stirred - still,
+        windy - still,
+    );
     println!(
         "immersion: {count} bodies that replay a series: {:.1} ns per body-step more than constant \
          coefficients",

@@ -5,6 +5,7 @@
 //! cargo run --release --example falling_leaves
 //! cargo run --release --example falling_leaves -- --fluid water --leaves 100
 //! cargo run --release --example falling_leaves -- --mesh my_leaf.obj --scale 0.001
+//! cargo run --release --example falling_leaves -- --wind 2 --turbulence 0.3
 //! cargo run --release --example falling_leaves -- --scene airplane
 //! ```
 //!
@@ -16,8 +17,10 @@ mod support;
 use clap::{Parser, ValueEnum};
 use rand::{RngExt, SeedableRng};
 use rapier3d_immersed::coupling::{Immersion, Warning, preset};
+use rapier3d_immersed::flow::LogLaw;
 use rapier3d_immersed::rapier3d::math::{Pose, Rotation, Vector};
 use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
+use rapier3d_immersed::turbulence::{LangevinMode, Turbulence, TurbulenceState, TurbulentLayer};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use support::airplane::Flight;
@@ -61,6 +64,13 @@ struct Options {
     /// Seed of the leaves' release: places, attitudes, colours [default: 7]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// Wind along x, m/s at 2 m height, that grows with the logarithm of height
+    #[arg(long, value_name = "M/S", default_value = "0", value_parser = cli::not_negative)]
+    wind: f64,
+    /// Turbulence: root mean square of the fluid's fluctuations over the wind speed, or over 1 m/s
+    /// where the wind is less
+    #[arg(long, value_name = "INTENSITY", default_value = "0", value_parser = cli::not_negative)]
+    turbulence: f64,
     /// Time step, s [default: 1/240, the leaf-scale preset]
     #[arg(long, value_name = "S", value_parser = cli::positive)]
     dt: Option<f64>,
@@ -133,6 +143,7 @@ fn main() {
             .map(|p| p.handle);
         immersion.insert_all(handles, (*kind.body).clone());
     }
+    stir(&mut immersion, &options);
     let run_options = RunOptions {
         seconds,
         frame_rate: options.frame_rate,
@@ -183,6 +194,31 @@ fn main() {
     }
 }
 
+/// Sets the wind and the turbulence.
+fn stir(immersion: &mut Immersion, options: &Options) {
+    /// Where the wind has its speed, m, over a floor of this roughness, m.
+    const HEIGHT: f32 = 2.0;
+    const ROUGHNESS: f32 = 0.003;
+    /// Size of the eddies, m: a room's.
+    const EDDIES: f32 = 0.5;
+    if options.wind > 0.0 {
+        let speed = options.wind as f32;
+        let wind = LogLaw::new(Vector::X, Vector::Y, speed, HEIGHT, ROUGHNESS);
+        immersion.set_flow(wind.unwrap_or_else(|problem| bad_value("--wind", problem)));
+    }
+    if options.turbulence > 0.0 {
+        let (speed, intensity) = (options.wind.max(1.0) as f32, options.turbulence as f32);
+        let state = TurbulenceState::from_intensity(speed, intensity, EDDIES);
+        immersion.set_turbulence(TurbulentLayer {
+            source: Turbulence::Homogeneous(
+                state.unwrap_or_else(|problem| bad_value("--turbulence", problem)),
+            ),
+            mode: LangevinMode::FluidSeen,
+            seed: options.seed.unwrap_or(7),
+        });
+    }
+}
+
 /// A finished run in words, numbers and pictures.
 struct Told {
     title: String,
@@ -223,6 +259,9 @@ fn airplane_told(scene: &Scene, recording: &Recording, plain: Option<&Recording>
 
 /// Ends the program if an option is of no use in the scene.
 fn check(options: &Options) {
+    if options.scale != 1.0 && options.mesh.is_none() {
+        bad_value("--scale", "is for the coordinates of a --mesh");
+    }
     let only_leaves = [
         ("--leaves", options.leaves.is_some()),
         ("--confetti", options.confetti.is_some()),

@@ -3,9 +3,11 @@
 use crate::Context;
 use crate::draw::{Item, Panel, Point, color, isometric};
 use plotters::style::RGBColor;
-use rapier3d_immersed::coupling::{FollowParams, Sketch};
+use rapier3d_immersed::coupling::FollowParams;
 use rapier3d_immersed::flow::FlowSample;
-use rapier3d_immersed::motion::{Classifier, Moment, MotionGraph, Numbers, Pattern, Trajectory};
+use rapier3d_immersed::motion::{
+    Classifier, Moment, MotionGraph, Numbers, Pattern, Sketch, Trajectory,
+};
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::{ColliderBuilder, MassProperties, Vector};
 use rapier3d_immersed::training::{

@@ -132,8 +132,8 @@ pub fn draw(context: &Context, arguments: &BodyArguments) -> Result<Value, Error
         panel
             .items
             .push(Item::Dots(vec![(case.reynolds, case.i_star)], grey, 4));
-        let below = (case.reynolds, case.i_star / 1.13);
-        panel.items.push(Item::Label(below, case.name.into(), grey));
+        let above = (case.reynolds, case.i_star * 1.14);
+        panel.items.push(Item::Label(above, case.name.into(), grey));
     }
     let red = RGBColor(211, 30, 30);
     panel

@@ -36,14 +36,20 @@ pub fn frames(scene: &Scene, recording: &Recording, summary: &Summary) -> String
 pub fn trajectories(scene: &Scene, immersed: &Recording, plain: Option<&Recording>) -> String {
     let side = |p: &Vec3| (p.x, p.y);
     let above = |p: &Vec3| (p.x, p.z);
-    let (wide, deep) = (1.6, 1.3);
+    let deep = 1.3;
+    // Wind carries the pieces off; the last few of them are not worth a picture ten times as wide.
+    let ends_above = ends(scene, immersed, above);
+    let mut along: Vec<f64> = ends_above.iter().map(|((x, _), _)| *x).collect();
+    along.sort_by(f64::total_cmp);
+    let at = |share: f64| along[(share * (along.len() - 1) as f64) as usize];
+    let window = (at(0.02).min(-1.0) - 0.1, at(0.96).max(1.0) + 0.1);
     let top = scene.pieces.iter().map(|p| p.release.y).fold(0.0, f64::max);
     let panel = |title, recording, view: fn(&Vec3) -> (f64, f64), axes, vertical| Panel {
         title,
         axes,
         lines: paths(scene, recording, view),
         dots: ends(scene, recording, view),
-        window: Some([(-wide, wide), vertical]),
+        window: Some([window, vertical]),
     };
     let mut panels = vec![
         panel(

@@ -3,6 +3,7 @@
 //! * `field_thesis.svg`: the gusty wind field at two heights, as Fig. 3.12 of the thesis, with its amplitudes,
 //! * `field.svg`: the same with the default, measured spectrum, free of divergence,
 //! * `spectra.svg`: the default's spectra against those of Kaimal et al. (1972),
+//! * `paths.svg`: leaves carried off by winds of 1, 3 and 5 m/s, as Fig. 3.14,
 //! * `history.svg`: ε/k and ε of the baked turbulence over time, as Fig. 4.2 of the thesis,
 //! * `stream.svg`: the flow past the plate that it was baked from, with its turbulence.
 //!
@@ -11,6 +12,7 @@
 //! ```
 
 mod draw;
+mod paths;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -116,6 +118,10 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
         &spectra(&params)?,
     )?;
 
+    let winds = paths::SPEEDS.map(|speed| paths::Paths::fly(&params, speed));
+    let winds: Vec<_> = winds.into_iter().collect::<Result<_, _>>()?;
+    paths::draw(&arguments.out.join("paths.svg"), &winds)?;
+
     let bar = ProgressBar::new(1000).with_style(ProgressStyle::with_template(
         "baking turbulence {bar:40} {percent} % {eta}",
     )?);
@@ -146,6 +152,15 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
         std::fs::write(path, table.clone().without_field().to_bytes())?;
     }
     report(arguments, &wind, wind_time, bake_time, &plate, &table);
+    if !arguments.json {
+        for wind in &winds {
+            println!(
+                "leaves from 10 m height at {} m/s: {:.0} m off",
+                wind.speed,
+                wind.drift()
+            );
+        }
+    }
     Ok(())
 }
 

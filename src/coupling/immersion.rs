@@ -4,11 +4,13 @@ use super::flight::Integrated;
 use super::kind::Kind;
 use super::original::Original;
 use super::playback::Player;
+use super::stream::Stirred;
 use crate::body::ImmersedBody;
 use crate::dynamics::Integrator;
 use crate::flow::Flow;
 use crate::fluid::Fluid;
 use crate::motion::ControlSeries;
+use crate::turbulence::TurbulentLayer;
 use crate::{DryMass, Error};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::ColliderSet;
@@ -36,7 +38,7 @@ use std::sync::Arc;
 /// Kinematic bodies are left alone until they become dynamic.
 ///
 /// # Memory
-/// About 490 bytes per body, besides what equal bodies share.
+/// About 550 bytes per body, besides what equal bodies share.
 ///
 /// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
 #[derive(Clone)]
@@ -50,6 +52,8 @@ pub struct Immersion {
     pub integrator: Integrator,
     pub(super) enabled: bool,
     pub(super) time: f64,
+    /// Number of steps so far: what the noise of a step depends on.
+    pub(super) steps: u64,
     /// Of the last step, for the read-out.
     pub(super) gravity: Vector,
     pub(super) descriptions: Vec<ImmersedBody>,
@@ -67,6 +71,9 @@ pub struct Immersion {
     /// The velocity field; `None` is a fluid at rest. Not part of a snapshot: set it again.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub(super) flow: Option<Arc<dyn Flow>>,
+    /// The turbulence on top of it. Not part of a snapshot either; what bodies remember of it is.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub(super) turbulence: Option<TurbulentLayer>,
     /// Rebuilt from the slots after loading.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub(super) kinds: Vec<Kind>,
@@ -125,8 +132,9 @@ pub(super) struct FlightState {
     pub end_angular: Vector,
     /// Mass that rapier's solver uses, kg.
     pub solver_mass: Real,
-    /// Velocity of the fluid in the last step, m/s.
+    /// Velocity of the fluid in the last step, m/s, with its fluctuation.
     pub stream: Vector,
+    pub stirred: Stirred,
     /// Whether rapier could not be given the right inertia tensor: torques are converted then.
     pub odd_inertia: bool,
     /// Whether all this is from the step before.
@@ -200,6 +208,7 @@ impl Immersion {
             integrator: Integrator::default(),
             enabled: true,
             time: 0.0,
+            steps: 0,
             gravity: Vector::ZERO,
             descriptions: Vec::new(),
             slots: Vec::new(),
@@ -210,6 +219,7 @@ impl Immersion {
             series: Vec::new(),
             changed: false,
             flow: None,
+            turbulence: None,
             kinds: Vec::new(),
             newcomers: Vec::new(),
             scratch: super::step::Scratch::default(),
@@ -364,9 +374,38 @@ impl Immersion {
         self.flow = Some(Arc::new(flow));
     }
 
-    /// Lets the fluid rest.
+    /// Stirs the fluid: turbulence on top of the mean flow, another for each body.
+    ///
+    /// A [`Turbulence`](crate::turbulence::Turbulence) acts as the fluctuating velocity of the fluid
+    /// that a body sees, with seed 0; [`TurbulentLayer`] chooses otherwise.
+    pub fn set_turbulence(&mut self, turbulence: impl Into<TurbulentLayer>) {
+        self.turbulence = Some(turbulence.into());
+    }
+
+    /// Ends the turbulence.
+    pub fn clear_turbulence(&mut self) {
+        self.turbulence = None;
+        for slot in self.slots.iter_mut().flatten() {
+            slot.flight.stirred = Stirred::default();
+        }
+        self.calm();
+    }
+
+    /// Where nothing moves the fluid any more, bodies start afresh in it.
+    fn calm(&mut self) {
+        if self.flow.is_some() || self.turbulence.is_some() {
+            return;
+        }
+        for slot in self.slots.iter_mut().flatten() {
+            slot.flight.stream = Vector::ZERO;
+            slot.flight.flying = false;
+        }
+    }
+
+    /// Lets the fluid rest, but for its turbulence.
     pub fn clear_flow(&mut self) {
         self.flow = None;
+        self.calm();
     }
 
     /// Seconds that the set has been stepped.
@@ -433,7 +472,7 @@ mod tests {
     #[test]
     fn bytes_per_body() {
         let kept = size_of::<Slot>() + size_of::<Original>() + 64;
-        assert!(kept <= 490, "{kept}");
+        assert!(kept <= 570, "{kept}");
         assert!(size_of::<super::super::flight::Flyer>() <= 120);
     }
 }

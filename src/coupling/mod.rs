@@ -2,6 +2,7 @@
 
 mod contact;
 mod flight;
+mod follow;
 mod from_rapier;
 mod handover;
 mod immersion;
@@ -10,10 +11,10 @@ mod original;
 mod playback;
 pub mod preset;
 mod readout;
-mod sketch;
 mod step;
+mod stream;
 
+pub use follow::{FollowParams, Followed};
 pub use immersion::{Immersion, Warning};
 pub use playback::OnContact;
-pub use sketch::{FollowParams, Followed, Sketch};
 pub use step::RapierSets;

@@ -6,6 +6,7 @@ use crate::dynamics::forces::{ForceBreakdown, Instant};
 use crate::dynamics::kirchhoff::Twist;
 use crate::math::{to_f64, to_quaternion};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
+use rapier3d::math::Vector;
 use rapier3d::na::UnitQuaternion;
 
 impl Immersion {
@@ -29,18 +30,29 @@ impl Immersion {
         let (stream, vorticity) = sample.unwrap_or_default();
         let plate = |row| to_f64(vector(row));
         let motion = &slot.flight.motion;
-        let forces = c.forces(&Instant {
-            attitude,
-            velocity: Twist {
-                linear: attitude.inverse() * to_f64(body.linvel() - stream),
-                angular: attitude.inverse() * to_f64(body.angvel() - vorticity * 0.5) * c.length,
-            },
-            rate: Twist {
-                linear: plate(motion.linear_rate),
-                angular: plate(motion.angular_rate),
-            },
-            gravity: to_f64(self.gravity * body.gravity_scale()),
-        });
-        Some(forces.weighted(slot.control.map(f64::from)))
+        let forces_in = |stream: Vector| {
+            let forces = c.forces(&Instant {
+                attitude,
+                velocity: Twist {
+                    linear: attitude.inverse() * to_f64(body.linvel() - stream),
+                    angular: attitude.inverse()
+                        * to_f64(body.angvel() - vorticity * 0.5)
+                        * c.length,
+                },
+                rate: Twist {
+                    linear: plate(motion.linear_rate),
+                    angular: plate(motion.angular_rate),
+                },
+                gravity: to_f64(self.gravity * body.gravity_scale()),
+            });
+            forces.weighted(slot.control.map(f64::from))
+        };
+        let mut mean = forces_in(stream);
+        let fluctuation = slot.flight.stirred.fluctuation;
+        if self.turbulence.is_some() && fluctuation != Vector::ZERO {
+            let stirred = forces_in(stream + fluctuation);
+            mean.turbulence = stirred.viscous() - mean.viscous();
+        }
+        Some(mean)
     }
 }

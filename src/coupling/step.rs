@@ -6,7 +6,7 @@ use super::handover::Pace;
 use super::immersion::{Immersion, NONE, Warning};
 use super::kind::Route;
 use super::original::Original;
-use crate::flow::FlowSample;
+use super::stream::Sampler;
 use rapier3d::dynamics::{
     ImpulseJointSet, IntegrationParameters, IslandManager, LockedAxes, MultibodyJointSet,
     RigidBody, RigidBodyHandle, RigidBodySet,
@@ -63,15 +63,14 @@ pub(super) struct Scratch {
     crowded: bool,
     /// Bodies between `before_step` and `after_step`.
     borrowed: Vec<Borrowed>,
-    points: Vec<Vector>,
-    samples: Vec<FlowSample>,
+    sampler: Sampler,
 }
 
 /// Bodies of one route that are moved together.
 #[derive(Clone, Default)]
-struct Batch {
-    flyers: Vec<Flyer>,
-    extras: Vec<Extra>,
+pub(super) struct Batch {
+    pub flyers: Vec<Flyer>,
+    pub extras: Vec<Extra>,
 }
 
 /// Size of a batch: small enough for the bodies to be still in the cache when they are written, large
@@ -196,6 +195,7 @@ impl Immersion {
         }
         if self.enabled {
             self.time += f64::from(sets.integration_parameters.dt.max(0.0));
+            self.steps += 1;
         }
         self.scratch = scratch;
         self.scratch.borrowed.clear();
@@ -473,7 +473,7 @@ impl Immersion {
         clock: &Clock,
     ) {
         let batch = &mut scratch.batches[route.index()];
-        self.sample_flow(batch, sets, &mut scratch.points, &mut scratch.samples);
+        self.sample_fluid(batch, sets, &mut scratch.sampler, clock.dt);
         let landings = &mut scratch.landings;
         landings.resize(batch.flyers.len(), Landing::default());
         let air = Air {
@@ -490,60 +490,6 @@ impl Immersion {
         }
         batch.flyers.clear();
         batch.extras.clear();
-    }
-
-    /// Reads the flow at every flyer, and lets a flow that changes push the bodies in it.
-    fn sample_flow(
-        &mut self,
-        batch: &mut Batch,
-        sets: &RapierSets,
-        points: &mut Vec<Vector>,
-        samples: &mut Vec<FlowSample>,
-    ) {
-        let Some(flow) = &self.flow else {
-            return;
-        };
-        points.clear();
-        points.extend(
-            batch
-                .flyers
-                .iter()
-                .filter_map(|flyer| Some(sets.bodies.get(flyer.handle)?.center_of_mass())),
-        );
-        samples.clear();
-        samples.resize(points.len(), FlowSample::default());
-        flow.sample(points, self.time, samples);
-        for (flyer, sample) in batch.flyers.iter_mut().zip(samples.iter()) {
-            if !sample.velocity.is_finite() || !sample.vorticity.is_finite() {
-                continue;
-            }
-            let Some(slot) = &mut self.slots[flyer.slot as usize] else {
-                continue;
-            };
-            if flyer.extra == NONE {
-                flyer.extra = batch.extras.len() as u32;
-                batch.extras.push(Extra::default());
-            }
-            let Some(extra) = batch.extras.get_mut(flyer.extra as usize) else {
-                continue;
-            };
-            extra.stream = row(sample.velocity);
-            extra.vorticity = row(sample.vorticity);
-            let change = sample.velocity - slot.flight.stream;
-            if slot.flight.flying {
-                extra.stream_change = row(change);
-            }
-            // In the frame of the fluid: a body that goes on is there already, but the frame itself
-            // has changed its velocity.
-            let frame = if flyer.goes_on {
-                change
-            } else {
-                sample.velocity
-            };
-            extra.linear = row(vector(extra.linear) - frame);
-            flyer.turned |= sample.vorticity != Vector::ZERO;
-            slot.flight.stream = sample.velocity;
-        }
     }
 
     /// Writes what the step shall do to one body, and keeps what must be given back.

@@ -39,6 +39,24 @@ impl std::ops::Mul<f64> for ForceAndTorque {
     }
 }
 
+impl std::ops::Sub for ForceAndTorque {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self {
+            force: self.force - other.force,
+            torque: self.torque - other.torque,
+        }
+    }
+}
+
+impl ForceBreakdown {
+    /// Drag, lifts and damping together.
+    pub fn viscous(&self) -> ForceAndTorque {
+        self.drag + self.translational_lift + self.rotational_lift + self.damping
+    }
+}
+
 /// What the fluid and gravity do to a body at one moment, by component.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ForceBreakdown {
@@ -57,7 +75,9 @@ pub struct ForceBreakdown {
     pub buoyancy: ForceAndTorque,
     /// Weight, at the center of mass.
     pub weight: ForceAndTorque,
-    /// Share of the fluid's turbulence in the viscous force; zero without a turbulent flow.
+    /// What the fluctuation of the fluid's velocity adds to the viscous force; the components above
+    /// are those in the mean flow. Zero without turbulence, and in the mode that changes bodies'
+    /// velocities instead.
     pub turbulence: ForceAndTorque,
     /// Angle of attack: of the relative velocity to the plate, rad, 0 edgewise to π/2 broadside.
     pub angle_of_attack: f32,

@@ -7,6 +7,7 @@ pub mod graph;
 pub mod numbers;
 pub mod pattern;
 pub mod phase_diagram;
+pub mod sketch;
 pub mod trajectory;
 pub mod turning;
 
@@ -16,5 +17,6 @@ pub use graph::MotionGraph;
 pub use numbers::{Numbers, Outline};
 pub use pattern::{Pattern, Regime};
 pub use phase_diagram::PhaseDiagram;
+pub use sketch::Sketch;
 pub use trajectory::{Moment, Spread, Trajectory};
 pub use turning::TurnFinder;

@@ -58,6 +58,7 @@ pub mod experiment;
 #[cfg(feature = "serde-serialize")]
 mod file;
 pub mod grid;
+pub mod plan;
 pub mod planner;
 pub mod subspace;
 pub mod sweep;
@@ -66,6 +67,7 @@ pub use cluster::Clusters;
 pub use energy::{ControlBox, EnergyObjective};
 pub use experiment::{Experiment, Release, thin_ellipsoid};
 pub use grid::{Axis, Grid};
-pub use planner::{DwellReport, Plan, Planner, PlannerParams};
+pub use plan::{DwellReport, Plan, PlannerParams};
+pub use planner::Planner;
 pub use subspace::Subspaces;
 pub use sweep::{Sample, Sweep};

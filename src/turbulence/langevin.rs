@@ -43,6 +43,11 @@ fn memory(x: Real) -> (Real, Real) {
         let inner = 1.0 - x * (1.0 / 4.0) * (1.0 - x * (1.0 / 5.0) * inner);
         x * (1.0 - x * (1.0 / 2.0) * (1.0 - x * (1.0 / 3.0) * inner))
     };
+    // Usual steps are short: half the terms, to 5e-8.
+    if x < 0.05 {
+        let lost = x * (1.0 - x * (1.0 / 2.0) * (1.0 - x * (1.0 / 3.0) * (1.0 - x * (1.0 / 4.0))));
+        return (1.0 - lost, lost * (2.0 - lost));
+    }
     if x < 0.35 {
         let lost = lost(x);
         return (1.0 - lost, lost * (2.0 - lost));
@@ -96,16 +101,50 @@ impl SeenFluctuation {
         dt: Real,
         noise: Vector,
     ) -> Vector {
-        let k = state.kinetic_energy;
-        if k.is_nan() || k <= 0.0 {
+        let eddies = Eddies::new(state, c0, dt);
+        self.pass(&eddies, relative_speed * relative_speed, noise)
+    }
+
+    /// One step through `eddies` at a squared slip (m²/s²), as [`SeenFluctuation::advance`].
+    #[inline]
+    pub(crate) fn pass(&mut self, eddies: &Eddies, slip2: Real, noise: Vector) -> Vector {
+        if eddies.deviation == 0.0 {
             return Vector::ZERO;
         }
-        let variance = k * (2.0 / 3.0);
-        let crossing = (1.0 + relative_speed * relative_speed / variance).sqrt();
-        let decay = 0.75 * c0 * state.dissipation / k * crossing * dt;
-        let (kept, fresh2) = memory(decay);
+        let crossing = (1.0 + slip2 * eddies.per_variance).sqrt();
+        let (kept, fresh2) = memory(eddies.decay * crossing);
         self.normalized = self.normalized * kept + noise * fresh2.sqrt();
-        self.normalized * variance.sqrt()
+        self.normalized * eddies.deviation
+    }
+}
+
+/// What a step needs to know of the turbulence: the same for all bodies where that is homogeneous.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Eddies {
+    /// dt over the memory of a tracer.
+    pub decay: Real,
+    /// Standard deviation of a component, m/s; 0 where there is no turbulence.
+    deviation: Real,
+    /// Its squared inverse, s²/m².
+    per_variance: Real,
+}
+
+impl Eddies {
+    pub fn new(state: &TurbulenceState, c0: Real, dt: Real) -> Self {
+        let k = state.kinetic_energy;
+        if k.is_nan() || k <= 0.0 {
+            return Self {
+                decay: 0.0,
+                deviation: 0.0,
+                per_variance: 0.0,
+            };
+        }
+        let variance = k * (2.0 / 3.0);
+        Self {
+            decay: 0.75 * c0 * state.dissipation / k * dt,
+            deviation: variance.sqrt(),
+            per_variance: 1.0 / variance,
+        }
     }
 }
 
@@ -174,7 +213,7 @@ mod tests {
     #[test]
     fn memory_is_accurate_for_any_step() {
         for x in [
-            0.0f32, 1.0e-9, 1.0e-5, 0.01, 0.1, 0.349, 0.351, 1.0, 5.0, 90.0,
+            0.0f32, 1.0e-9, 1.0e-5, 0.01, 0.049, 0.051, 0.1, 0.349, 0.351, 1.0, 5.0, 90.0,
         ] {
             let (kept, fresh2) = memory(x);
             let y = f64::from(x);

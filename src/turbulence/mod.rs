@@ -22,7 +22,8 @@ pub use bake::{BakeReport, BakeSample, ShearSource, TurbulenceParams};
 pub use k_epsilon::{KEpsilon, TurbulenceState};
 #[cfg(feature = "bake")]
 pub use k_epsilon_grid::KEpsilonGrid;
+pub(crate) use langevin::Eddies;
 pub use langevin::{SeenFluctuation, kolmogorov_constant, relative_velocity_after, spin_increment};
 pub use noise::NoiseStream;
-pub use source::Turbulence;
+pub use source::{LangevinMode, Turbulence, TurbulentLayer};
 pub use table::{TurbulenceField, TurbulenceTable};

@@ -41,6 +41,42 @@ pub enum Turbulence {
     },
 }
 
+/// How turbulence acts on a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LangevinMode {
+    /// The velocity of the *fluid* around the body fluctuates, and the body follows as its drag and
+    /// added mass let it: a heavy one filters the turbulence, a light one drifts along.
+    #[default]
+    FluidSeen,
+    /// The thesis's way, (4.12)–(4.14): random increments of the *body's* own velocity relative to
+    /// the mean flow, and of its spin, before the forces of each step (fractional step of §4.3.2),
+    /// whatever its mass. The step is exact in the linear velocity, so that statistics do not depend
+    /// on dt.
+    BodyIncrements,
+}
+
+/// A turbulence over a mean flow, how it acts, and its seed.
+#[derive(Clone, Debug)]
+pub struct TurbulentLayer {
+    /// How strong it is, where and when.
+    pub source: Turbulence,
+    /// How it acts on bodies.
+    pub mode: LangevinMode,
+    /// Seed of the noise. Each body has a stream of its own, a pure function of seed, handle and
+    /// step: order and threads cannot change it.
+    pub seed: u64,
+}
+
+impl From<Turbulence> for TurbulentLayer {
+    fn from(source: Turbulence) -> Self {
+        Self {
+            source,
+            mode: LangevinMode::default(),
+            seed: 0,
+        }
+    }
+}
+
 impl Turbulence {
     /// The turbulence at `point` (world, m) and `time` (s, of the immersion) around a body released
     /// `age` seconds ago.

@@ -1,7 +1,8 @@
 //! A drawn path is followed: what the search found, replayed by an ordinary body in rapier.
 
 use crate::support::{LEAF, collider};
-use rapier3d_immersed::coupling::{FollowParams, Followed, Sketch};
+use rapier3d_immersed::coupling::{FollowParams, Followed};
+use rapier3d_immersed::motion::Sketch;
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::training::Experiment;
 

@@ -3,7 +3,7 @@
 use crate::support::LEAF;
 use rapier3d_immersed::ThesisLaw;
 use rapier3d_immersed::motion::{Classifier, Pattern};
-use rapier3d_immersed::training::{Clusters, Experiment, Grid, Sample, Subspaces, Sweep};
+use rapier3d_immersed::training::{Axis, Clusters, Experiment, Grid, Sample, Subspaces, Sweep};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
@@ -75,6 +75,32 @@ fn the_card_under_the_thesis_law() {
     let fractions = subspaces.volume_fractions();
     // Thesis § 5.4.2: "There are more data in ZZ zone than the others".
     assert!(fractions[Pattern::Zigzag.index()] > 0.5, "{fractions:?}");
+}
+
+/// Any parameter can be swept: density and release angle of the leaf under its own law. The heavier it
+/// is (the larger I*), the more it tumbles (Field et al. 1997).
+#[test]
+fn heavier_leaves_tumble_more() {
+    let axis = |low, high, count| Axis { low, high, count };
+    let axes = vec![axis(60.0, 1500.0, 4), axis(0.1, 1.2, 12)];
+    let mut sweep = Sweep::new(Grid::new(axes).unwrap());
+    let drop = |point: &[f64]| {
+        let mut experiment = LEAF.experiment.clone();
+        let density = point[0] / 400.0;
+        experiment.mass.mass *= density;
+        experiment.mass.inertia *= density;
+        experiment.release.tilt = point[1];
+        Ok(Sample::of(&experiment.run()?, &Classifier::default()))
+    };
+    sweep.run(drop, |_, _| ControlFlow::Continue(())).unwrap();
+    let tumbling: Vec<usize> = sweep
+        .patterns()
+        .unwrap()
+        .chunks(12)
+        .map(|row| row.iter().filter(|p| **p == Pattern::Autorotation).count())
+        .collect();
+    println!("tumbling of 12 releases by density: {tumbling:?}");
+    assert!(tumbling[3] > tumbling[0], "{tumbling:?}");
 }
 
 /// A brick of granite falls steadily whatever its coefficients (thesis § 5.5.3).

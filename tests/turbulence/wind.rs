@@ -97,6 +97,38 @@ fn spectrum_falls_with_the_power_minus_five_thirds() {
     }
 }
 
+/// Kolmogorov's 2/3: ⟨|u(x + r) − u(x)|²⟩ along the wind grows with r^(2/3) inside the inertial range.
+/// What the grid cuts off below its spacing steepens the curve, what the box cuts off above its length
+/// flattens it: for modes of power k^(−8/3) on a grid of 256² the exponent between 12 and 36 spacings
+/// is .668 (from the sum over the modes).
+#[test]
+fn structure_function_grows_with_the_power_two_thirds() {
+    let (n, near, far, seeds) = (256, 12usize, 36usize, 40);
+    let mut exponents = Vec::new();
+    for seed in 0..seeds {
+        let wind = SpectralWind::bake(&WindParams {
+            seed,
+            divergence_free: false,
+            ..given([1.0; 3], [n, n, 1])
+        })
+        .unwrap();
+        let along: Vec<f64> = wind.fluctuations().map(|v| f64::from(v.x)).collect();
+        let difference = |r: usize| -> f64 {
+            let line = |line: &[f64]| -> f64 {
+                (0..n).map(|i| (line[(i + r) % n] - line[i]).powi(2)).sum()
+            };
+            along.chunks(n).map(line).sum()
+        };
+        exponents.push((difference(far) / difference(near)).ln() / (far as f64 / near as f64).ln());
+    }
+    let mean = exponents.iter().sum::<f64>() / seeds as f64;
+    let variance = exponents.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (seeds - 1) as f64;
+    let error = (variance / seeds as f64).sqrt();
+    println!("{mean} ± {error}");
+    assert!(error < 0.02, "{error}");
+    assert!((mean - 0.668).abs() < 3.0 * error, "{mean} ± {error}");
+}
+
 #[test]
 fn variance_is_as_asked() {
     let deviation = [1.3, 0.7, 0.4];

@@ -12,3 +12,4 @@ mod sphere;
 mod stream;
 mod support;
 mod thesis_law;
+mod turbulence;

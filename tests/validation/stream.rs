@@ -65,3 +65,40 @@ fn a_falling_leaf_drifts_with_the_wind() {
     assert!((mean.x - 20.0).abs() < 3.0, "{mean}");
     assert!((-3.0..-0.3).contains(&mean.y), "{mean}");
 }
+
+/// A leaf that lies on the floor is lifted by an upward gust that presses more than its weight, ½ρC_D U²
+/// > mg/A (U = 1.1 m/s here), even when it has fallen asleep; a weaker one leaves it lying.
+#[test]
+fn a_gust_lifts_a_resting_leaf() {
+    let lifted = |speed: Real| {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = 1.0 / 240.0;
+        let floor = ColliderBuilder::cuboid(1.0, 0.1, 1.0).translation(Vector::Y * -0.1);
+        world.colliders.insert(floor);
+        let (leaf, _) = world.insert(
+            RigidBodyBuilder::dynamic().translation(Vector::Y * 0.002),
+            ColliderBuilder::cuboid(0.0365, 0.000_15, 0.021).density(300.0),
+        );
+        rapier3d_immersed::preset::leaf_scale(&mut world.integration_parameters);
+        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaf).unwrap();
+        let mut immersion = Immersion::new(Fluid::AIR);
+        immersion.insert(leaf, hydro);
+        immersion.set_flow(rapier3d_immersed::flow::Gust {
+            velocity: Vector::Y * speed,
+            start: 4.0,
+            duration: 1.0,
+            ..Default::default()
+        });
+        let mut highest: Real = 0.0;
+        for step in 0..1200 {
+            immersion.step(&mut world);
+            if step == 950 {
+                assert!(world.bodies[leaf].is_sleeping(), "{speed}");
+            }
+            highest = highest.max(world.bodies[leaf].translation().y);
+        }
+        highest
+    };
+    assert!(lifted(0.7) < 0.005, "{}", lifted(0.7));
+    assert!(lifted(1.8) > 0.05, "{}", lifted(1.8));
+}
