@@ -121,12 +121,18 @@ impl Experiment {
     /// The card of thesis Fig. 5.6 in air, under the thesis's law with coefficients C̃. Its sizes are
     /// our reading of what the thesis leaves open: an ellipsoid of semi-axes 3.5 × 2 × 0.02 cm,
     /// 800 kg/m³.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a coefficient of the law cannot be.
     pub fn thesis_card(law: ThesisLaw) -> Result<Self, Error> {
         Self::of_ellipsoid([0.035, 0.02, 0.0002], 800.0, law)
     }
 
     /// The leaf of thesis Fig. 5.14 in air: 7.3 × 4.2 × 0.03 cm. The thesis does not print its
     /// density: 400 kg/m³ here.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a coefficient of the law cannot be.
     pub fn thesis_leaf(law: ThesisLaw) -> Result<Self, Error> {
         Self::of_ellipsoid([0.0365, 0.021, 0.00015], 400.0, law)
     }
