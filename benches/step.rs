@@ -5,9 +5,10 @@
 
 use criterion::{BenchmarkId, Criterion};
 use rapier3d_immersed::flow::GridFlow;
+use rapier3d_immersed::motion::{ControlSeries, Dwell, Pattern};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::turbulence::{NoiseStream, Turbulence, TurbulenceState};
-use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
+use rapier3d_immersed::{Fluid, HydroProperties, Immersion, OnContact, RapierSets};
 use std::time::{Duration, Instant};
 
 /// Leaves in the air, far enough apart that no pairs form, with a spread of attitudes.
@@ -106,6 +107,53 @@ fn interleaved(count: usize, rounds: usize) -> [Vec<f64>; 3] {
     times
 }
 
+/// What replaying a series of control parameters costs per body-step over constant ones, ns: the hook
+/// alone, of two equal worlds in turn.
+fn playing(count: usize, rounds: usize) -> f64 {
+    let (mut worlds, mut immersions) = (Vec::new(), Vec::new());
+    let book: Vec<ControlSeries> = (0..16)
+        .map(|i| {
+            let controls = (0..400).map(|k| [1.0 + 1e-3 * (i + k) as f32, 1.0, 1.0]);
+            let dwell = Dwell {
+                pattern: Pattern::Zigzag,
+                from: 0,
+            };
+            ControlSeries::new(1.0 / 30.0, controls.collect(), vec![dwell]).unwrap()
+        })
+        .collect();
+    for player in [false, true] {
+        let (world, handles) = leaves(count);
+        let mut immersion = immersed(&world, &handles);
+        for (i, handle) in handles.iter().enumerate() {
+            if player {
+                immersion.play(*handle, &book[i % book.len()], OnContact::Restart);
+            } else {
+                immersion.set_control(*handle, [1.1, 1.0, 1.0]);
+            }
+        }
+        worlds.push(world);
+        immersions.push(immersion);
+    }
+    let mut differences = Vec::new();
+    for round in 0..rounds + 10 {
+        let mut times = [0.0; 2];
+        // The first of a pair warms the caches: each goes first in turn.
+        for which in [round % 2, 1 - round % 2] {
+            let (world, immersion) = (&mut worlds[which], &mut immersions[which]);
+            let start = Instant::now();
+            immersion.before_step(&mut RapierSets::of(world));
+            let before = start.elapsed();
+            world.step();
+            immersion.after_step(&mut RapierSets::of(world));
+            times[which] = before.as_secs_f64() * 1e9 / count as f64;
+        }
+        if round >= 10 {
+            differences.push(times[1] - times[0]);
+        }
+    }
+    median(&mut differences)
+}
+
 fn median(times: &mut [f64]) -> f64 {
     times.sort_by(f64::total_cmp);
     times[times.len() / 2]
@@ -175,6 +223,11 @@ fn main() {
         "immersion: {count} bodies: turbulence adds {:.0} ns, grid wind {:.0} ns per body-step",
         stirred - still,
         windy - still,
+    );
+    println!(
+        "immersion: {count} bodies that replay a series: {:.1} ns per body-step more than constant \
+         coefficients",
+        playing(count, if quick { 4 } else { 100 })
     );
     println!(
         "immersion: {count} sleeping bodies: {:.1} ns per body-step",

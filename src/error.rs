@@ -168,6 +168,17 @@ pub enum Error {
         value: f64,
     },
 
+    /// The samples to cluster take fewer than four different values.
+    #[error("the samples cannot be divided into four clusters: they take too few values")]
+    TooFewClusters,
+
+    /// A body was asked for a motion pattern that none of its control parameters gives.
+    #[error("the body never shows the pattern {pattern}")]
+    PatternNotShown {
+        /// The pattern, by its two letters.
+        pattern: &'static str,
+    },
+
     /// The bytes do not start like a file of the expected kind.
     #[error("not a {file} file")]
     WrongFileKind {

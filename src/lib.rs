@@ -12,11 +12,13 @@ pub mod fluid;
 pub mod geometry;
 pub mod hydro;
 mod math;
+pub mod motion;
 pub mod reduced;
+pub mod training;
 pub mod turbulence;
 
 pub use body::{DryMass, ImmersedBody};
-pub use coupling::{Immersion, RapierSets, Warning, preset};
+pub use coupling::{Immersion, OnContact, RapierSets, Warning, preset};
 pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;

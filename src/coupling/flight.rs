@@ -9,6 +9,7 @@ use crate::dynamics::integrate::{Inviscid, Load, Motion, advance, rotate, rotate
 use crate::dynamics::kirchhoff::Twist;
 use crate::hydro::viscous::Evaluate;
 use crate::hydro::viscous::physical::{PhysicalConstants, PlatesOnly};
+use crate::hydro::viscous::scaled::Scaled;
 use crate::hydro::viscous::stochastic::StochasticConstants;
 use crate::hydro::viscous::thesis::ThesisConstants;
 use crate::math::{LANES, Lanes};
@@ -49,6 +50,8 @@ pub(super) struct Flyer {
     /// Mass that rapier's solver uses, kg; `new_mass` if rapier has to be told.
     pub solver_mass: f32,
     pub new_mass: bool,
+    /// Factors on the law's drag, rotational lift and translational lift.
+    pub control: [f32; 3],
     /// Share of the world's gravity that the body feels.
     pub gravity_scale: f32,
     /// Index of the body's [`Extra`], `NONE` if it has none.
@@ -400,6 +403,14 @@ impl<const SYMMETRIC: bool> Wing<'_, SYMMETRIC> {
             motion.velocity.linear += on_top + pushed.linear;
             motion.velocity.angular += spin + pushed.angular;
         }
+        let [drag, rotational, translational, _] = side_by_side(self.rows(|f| {
+            let [drag, rotational, translational] = f.control;
+            [drag, rotational, translational, 0.0]
+        }));
+        let law = &Scaled {
+            law,
+            factors: [drag, rotational, translational],
+        };
         let dt = Lanes::splat(clock.dt);
         let count = substeps(inertia, &motion, &load, dt, &clock.integrator);
         let most = count.0.to_array().into_iter().fold(1.0, f32::max) as u32;

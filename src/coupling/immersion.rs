@@ -3,11 +3,13 @@
 use super::flight::Integrated;
 use super::kind::Kind;
 use super::original::Original;
+use super::playback::Player;
 use super::stream::Stirred;
 use crate::body::ImmersedBody;
 use crate::dynamics::Integrator;
 use crate::flow::Flow;
 use crate::fluid::Fluid;
+use crate::motion::ControlSeries;
 use crate::turbulence::TurbulentLayer;
 use crate::{DryMass, Error};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
@@ -36,7 +38,7 @@ use std::sync::Arc;
 /// Kinematic bodies are left alone until they become dynamic.
 ///
 /// # Memory
-/// About 520 bytes per body, besides what equal bodies share.
+/// About 550 bytes per body, besides what equal bodies share.
 ///
 /// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
 #[derive(Clone)]
@@ -61,6 +63,8 @@ pub struct Immersion {
     pub(super) free: Vec<u32>,
     pub(super) warnings: Vec<Warning>,
     pub(super) sweep: u32,
+    /// The series that bodies replay; `None` where there is room for one.
+    pub(super) series: Vec<Option<ControlSeries>>,
     /// Whether bodies may have to enter or leave the fluid.
     #[cfg_attr(feature = "serde-serialize", serde(skip, default = "yes"))]
     pub(super) changed: bool,
@@ -92,6 +96,10 @@ pub(super) struct Slot {
     pub handle: RigidBodyHandle,
     pub description: u32,
     pub enabled: bool,
+    /// What the body replays, if it does.
+    pub player: Option<Player>,
+    /// Factors on the law's drag, rotational lift and translational lift.
+    pub control: [f32; 3],
     /// What rapier's body was before; `None` while it is not immersed.
     pub original: Option<Box<Original>>,
     /// Index of the kind; found again after loading a snapshot.
@@ -210,6 +218,7 @@ impl Immersion {
             free: Vec::new(),
             warnings: Vec::new(),
             sweep: 0,
+            series: Vec::new(),
             changed: false,
             flow: None,
             turbulence: None,
@@ -277,6 +286,8 @@ impl Immersion {
             handle,
             description,
             enabled: true,
+            player: None,
+            control: [1.0; 3],
             original: None,
             kind: NONE,
             flight: FlightState::default(),
@@ -463,7 +474,7 @@ mod tests {
     #[test]
     fn bytes_per_body() {
         let kept = size_of::<Slot>() + size_of::<Original>() + 64;
-        assert!(kept <= 540, "{kept}");
+        assert!(kept <= 570, "{kept}");
         assert!(size_of::<super::super::flight::Flyer>() <= 120);
     }
 }

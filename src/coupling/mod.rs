@@ -2,15 +2,19 @@
 
 mod contact;
 mod flight;
+mod follow;
 mod from_rapier;
 mod handover;
 mod immersion;
 mod kind;
 mod original;
+mod playback;
 pub mod preset;
 mod readout;
 mod step;
 mod stream;
 
+pub use follow::{FollowParams, Followed};
 pub use immersion::{Immersion, Warning};
+pub use playback::OnContact;
 pub use step::RapierSets;

@@ -31,7 +31,7 @@ impl Immersion {
         let plate = |row| to_f64(vector(row));
         let motion = &slot.flight.motion;
         let forces_in = |stream: Vector| {
-            c.forces(&Instant {
+            let forces = c.forces(&Instant {
                 attitude,
                 velocity: Twist {
                     linear: attitude.inverse() * to_f64(body.linvel() - stream),
@@ -44,7 +44,8 @@ impl Immersion {
                     angular: plate(motion.angular_rate),
                 },
                 gravity: to_f64(self.gravity * body.gravity_scale()),
-            })
+            });
+            forces.weighted(slot.control.map(f64::from))
         };
         let mut mean = forces_in(stream);
         let fluctuation = slot.flight.stirred.fluctuation;

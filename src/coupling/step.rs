@@ -399,6 +399,7 @@ impl Immersion {
             None
         };
         let held = is_held(body, handle, sets);
+        slot.replay(normal.is_some() || held, &self.series, clock.dt.into());
         let wanted = match normal {
             Some(normal) => contact::mass_along(kind, body, normal) as Real,
             None => kind.constants.dry.mass as Real,
@@ -461,6 +462,7 @@ impl Immersion {
             goes_on,
             solver_mass: if new_mass { wanted } else { solver_mass },
             new_mass,
+            control: slot.control,
             gravity_scale: body.gravity_scale(),
             extra,
             turned: torque != Vector::ZERO,

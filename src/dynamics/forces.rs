@@ -5,7 +5,7 @@ use super::kirchhoff::{Twist, cross};
 use crate::body::{BodyConstants, LawConstants};
 use crate::hydro::viscous::{Evaluate, ViscousTerms};
 use crate::math::to_real;
-use rapier3d::math::Vector;
+use rapier3d::math::{Real, Vector};
 use rapier3d::na::{UnitQuaternion, Vector3};
 
 /// A force, N, and its moment about the center of mass, N·m, world axes.
@@ -24,6 +24,17 @@ impl std::ops::Add for ForceAndTorque {
         Self {
             force: self.force + other.force,
             torque: self.torque + other.torque,
+        }
+    }
+}
+
+impl std::ops::Mul<f64> for ForceAndTorque {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self {
+            force: self.force * factor as Real,
+            torque: self.torque * factor as Real,
         }
     }
 }
@@ -70,6 +81,18 @@ pub struct ForceBreakdown {
     pub turbulence: ForceAndTorque,
     /// Angle of attack: of the relative velocity to the plate, rad, 0 edgewise to π/2 broadside.
     pub angle_of_attack: f32,
+}
+
+impl ForceBreakdown {
+    /// With factors on drag, rotational lift and translational lift.
+    pub(crate) fn weighted(self, [drag, rotational, translational]: [f64; 3]) -> Self {
+        Self {
+            drag: self.drag * drag,
+            rotational_lift: self.rotational_lift * rotational,
+            translational_lift: self.translational_lift * translational,
+            ..self
+        }
+    }
 }
 
 /// The state that forces depend on.

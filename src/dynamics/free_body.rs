@@ -8,6 +8,7 @@ use crate::body::{BodyConstants, DryMass, ImmersedBody, LawConstants};
 use crate::dynamics::Integrator;
 use crate::flow::FlowSample;
 use crate::fluid::Fluid;
+use crate::hydro::viscous::scaled::Scaled;
 use crate::math;
 use rapier3d::na::{UnitQuaternion, Vector3};
 
@@ -19,6 +20,9 @@ pub struct FreeBody {
     constants: BodyConstants,
     /// How finely steps are integrated.
     pub integrator: Integrator,
+    /// c̃: factors on the law's drag, rotational lift and translational lift (default 1, 1, 1). Under
+    /// the thesis's law with coefficients (1, 1, 1) they are the thesis's control parameters.
+    pub control: [f64; 3],
     /// Center of mass, m.
     pub position: Vector3<f64>,
     attitude: UnitQuaternion<f64>,
@@ -42,6 +46,7 @@ impl FreeBody {
         Ok(Self {
             constants,
             integrator: Integrator::default(),
+            control: [1.0; 3],
             position: Vector3::zeros(),
             attitude,
             velocity: Twist::zero(),
@@ -49,6 +54,11 @@ impl FreeBody {
             trend: Twist::zero(),
             last: 0.0,
         })
+    }
+
+    /// Mass of the body itself, kg.
+    pub fn mass(&self) -> f64 {
+        self.constants.dry.mass
     }
 
     /// Orientation of the body's frame.
@@ -142,7 +152,7 @@ impl FreeBody {
             last: self.last,
         };
         motion.velocity.linear -= rotate_back(&motion.attitude, &stream);
-        let inertia = &c.inertia;
+        let (inertia, factors) = (&c.inertia, self.control);
         let count = substeps(inertia, &motion, &load, dt, &self.integrator);
         let (most, iterations) = (count as u32, self.integrator.iterations);
         let m = &mut motion;
@@ -152,12 +162,15 @@ impl FreeBody {
                 advance::<false, _, _>(inertia, &Inviscid, &load, m, dt, count, most, iterations);
             }
             LawConstants::Physical(law) => {
+                let law = &Scaled { law, factors };
                 advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
             }
             LawConstants::Thesis(law) => {
+                let law = &Scaled { law, factors };
                 advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
             }
             LawConstants::Stochastic(law) => {
+                let law = &Scaled { law, factors };
                 advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
             }
         }
@@ -170,12 +183,13 @@ impl FreeBody {
 
     /// The components of the force on the body in a fluid at rest under `gravity`, m/s².
     pub fn forces(&self, gravity: Vector3<f64>) -> ForceBreakdown {
-        self.constants.forces(&Instant {
+        let instant = Instant {
             attitude: self.attitude,
             velocity: self.velocity,
             rate: self.rate,
             gravity,
-        })
+        };
+        self.constants.forces(&instant).weighted(self.control)
     }
 
     /// Momentum of body and fluid in plate axes, kg·m/s and kg·m²/s.

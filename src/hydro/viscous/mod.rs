@@ -15,6 +15,7 @@
 //! the shape, origin at the body's center of mass.
 
 pub mod physical;
+pub(crate) mod scaled;
 pub mod stochastic;
 pub mod thesis;
 

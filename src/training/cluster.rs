@@ -1,0 +1,188 @@
+//! The thesis's classification: k-means over (d, e), labels by rule (§ 5.4.2).
+
+use super::sweep::Sample;
+#[cfg(feature = "bake")]
+use crate::Error;
+use crate::motion::Pattern;
+
+/// Four clusters in (d, e).
+///
+/// Features are log₁₀(d/L + 0.1) and e, so that one body flung far away (the thesis's law pumps energy
+/// into some) does not get a cluster of its own. Labels follow the means of d: the nearest cluster is
+/// steady descent, the farthest autorotation, and of the two between the nearer is the zigzag (thesis
+/// Fig. 5.7: SD 1.25, ZZ 5.69, AZ 13.72, AR 22.43 cm).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct Clusters {
+    /// L: length that d is measured in, m.
+    pub length: f64,
+    /// Centers in the features, in the order of [`Pattern::ALL`].
+    pub centers: [[f64; 2]; 4],
+}
+
+impl Clusters {
+    fn feature(length: f64, sample: &Sample) -> [f64; 2] {
+        [
+            (sample.distance / length + 0.1).log10(),
+            sample.eccentricity,
+        ]
+    }
+
+    /// Pattern of the nearest center.
+    pub fn label(&self, sample: &Sample) -> Pattern {
+        let at = Self::feature(self.length, sample);
+        let distance =
+            |center: &[f64; 2]| (center[0] - at[0]).powi(2) + (center[1] - at[1]).powi(2);
+        let mut best = 0;
+        for i in 1..4 {
+            if distance(&self.centers[i]) < distance(&self.centers[best]) {
+                best = i;
+            }
+        }
+        Pattern::ALL[best]
+    }
+
+    /// Share of samples for which the direct classifier says the same.
+    pub fn agreement<'a>(&self, samples: impl IntoIterator<Item = &'a Sample>) -> f64 {
+        let (mut same, mut count) = (0usize, 0usize);
+        for sample in samples {
+            same += usize::from(self.label(sample) == sample.pattern());
+            count += 1;
+        }
+        same as f64 / count.max(1) as f64
+    }
+
+    /// How often each pair of labels occurs: row by this clustering, column by the direct classifier,
+    /// both in the order of [`Pattern::ALL`].
+    pub fn confusion<'a>(&self, samples: impl IntoIterator<Item = &'a Sample>) -> [[usize; 4]; 4] {
+        let mut table = [[0; 4]; 4];
+        for sample in samples {
+            table[self.label(sample).index()][sample.pattern().index()] += 1;
+        }
+        table
+    }
+}
+
+#[cfg(feature = "bake")]
+impl Clusters {
+    /// Finds the clusters of samples by k-means, the best of several seeded starts.
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`] if `length` (m) is not positive or a sample's d or e is not finite;
+    /// [`Error::WrongLength`] if there are fewer than four samples; [`Error::TooFewClusters`] if they
+    /// take less than four different values.
+    pub fn find(samples: &[Sample], length: f64, seed: u64) -> Result<Self, Error> {
+        use smartcore::cluster::kmeans::{KMeans, KMeansParameters};
+        use smartcore::linalg::basic::matrix::DenseMatrix;
+        const STARTS: u64 = 8;
+        Error::check_positive("length", length)?;
+        if samples.len() < 4 {
+            return Err(Error::WrongLength {
+                what: "samples to cluster",
+                expected: 4,
+                actual: samples.len(),
+            });
+        }
+        let mut points = Vec::with_capacity(samples.len());
+        for sample in samples {
+            Error::check_not_negative("distance", sample.distance)?;
+            Error::check_range("eccentricity", sample.eccentricity, 0.0, 1.0)?;
+            points.push(Self::feature(length, sample).to_vec());
+        }
+        let mut best: Option<(f64, [[f64; 2]; 4])> = None;
+        let matrix = DenseMatrix::from_2d_vec(&points);
+        for start in 0..STARTS {
+            let parameters = KMeansParameters {
+                k: 4,
+                max_iter: 200,
+                seed: Some(seed.wrapping_add(start)),
+            };
+            let Ok(matrix) = &matrix else { break };
+            let Ok(fit) = KMeans::<f64, i32, _, Vec<i32>>::fit(matrix, parameters) else {
+                continue;
+            };
+            let Ok(labels) = fit.predict(matrix) else {
+                continue;
+            };
+            if let Some(found) = centers(&points, &labels)
+                && best.is_none_or(|(scatter, _)| found.0 < scatter)
+            {
+                best = Some(found);
+            }
+        }
+        let (_, mut centers) = best.ok_or(Error::TooFewClusters)?;
+        centers.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let [steady, zigzag, chaotic, autorotation] = centers;
+        Ok(Self {
+            length,
+            centers: [steady, autorotation, chaotic, zigzag],
+        })
+    }
+}
+
+/// Centers of labelled points and their scatter; `None` if a label is missing.
+#[cfg(feature = "bake")]
+fn centers(points: &[Vec<f64>], labels: &[i32]) -> Option<(f64, [[f64; 2]; 4])> {
+    let mut sums = [[0.0; 3]; 4];
+    for (point, label) in points.iter().zip(labels) {
+        let sum = &mut sums[usize::try_from(*label).ok()?];
+        for (s, x) in sum.iter_mut().zip([point[0], point[1], 1.0]) {
+            *s += x;
+        }
+    }
+    if sums.iter().any(|[_, _, count]| *count == 0.0) {
+        return None;
+    }
+    let centers = sums.map(|[x, y, count]| [x / count, y / count]);
+    let scatter = points.iter().zip(labels).map(|(point, label)| {
+        let center = centers[*label as usize];
+        (point[0] - center[0]).powi(2) + (point[1] - center[1]).powi(2)
+    });
+    Some((scatter.sum(), centers))
+}
+
+#[cfg(all(test, feature = "bake"))]
+mod tests {
+    use super::*;
+    use crate::motion::Regime;
+    use rand::{RngExt, SeedableRng};
+
+    /// Four clouds around the values of thesis Fig. 5.7 are found and named by it.
+    #[test]
+    fn the_printed_patterns_are_named() {
+        use Regime::*;
+        let printed = [
+            (0.0125, 0.72, SteadyDescent),
+            (0.0569, 0.79, PeriodicFlutter),
+            (0.1372, 0.93, TransitionalChaotic),
+            (0.2243, 0.92, PeriodicTumbling),
+        ];
+        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(3);
+        let mut samples = Vec::new();
+        for (d, e, regime) in printed {
+            for _ in 0..50 {
+                let mut spread = |size: f64| 1.0 + size * (random.random_range(0.0..2.0) - 1.0);
+                samples.push(Sample {
+                    distance: d * spread(0.15),
+                    eccentricity: e * spread(0.02),
+                    regime,
+                    simulated: true,
+                });
+            }
+        }
+        let clusters = Clusters::find(&samples, 0.02, 1).unwrap();
+        assert_eq!(clusters.agreement(&samples), 1.0);
+        assert_eq!(clusters, Clusters::find(&samples, 0.02, 1).unwrap());
+        let table = clusters.confusion(&samples);
+        assert!((0..4).all(|i| table[i][i] == 50));
+        assert_eq!(
+            Clusters::find(&vec![samples[0]; 9], 0.02, 1),
+            Err(Error::TooFewClusters)
+        );
+        assert!(Clusters::find(&samples[..3], 0.02, 1).is_err());
+        assert!(Clusters::find(&samples, 0.0, 1).is_err());
+    }
+}

@@ -1,0 +1,73 @@
+//! Training: numerical experiments over a body's coefficients, and what pattern each shows (thesis
+//! § 5.4).
+//!
+//! An [`Experiment`] drops a body; a [`Sweep`] drops it at every node of a [`Grid`] of parameters and is
+//! refined where neighbours disagree; [`Subspaces`] answer which pattern a point belongs to.
+//! [`Clusters`] are the thesis's own classification, beside the direct
+//! [`Classifier`](crate::motion::Classifier). A [`Planner`] makes series of coefficients of them, which a
+//! body in rapier replays ([`Immersion::play`](crate::Immersion::play)):
+//!
+//! ```
+//! use rapier3d_immersed::motion::{Classifier, MotionGraph, Pattern};
+//! use rapier3d_immersed::rapier3d::prelude::*;
+//! use rapier3d_immersed::training::{Experiment, Grid, Planner, PlannerParams, Subspaces, Sweep};
+//! use rapier3d_immersed::{DryMass, Fluid, HydroProperties, Immersion, OnContact};
+//! use std::ops::ControlFlow;
+//!
+//! # fn main() -> Result<(), rapier3d_immersed::Error> {
+//! let mut world = PhysicsWorld::new();
+//! world.integration_parameters.dt = 1.0 / 120.0;
+//! let (leaf, _) = world.insert(
+//!     RigidBodyBuilder::dynamic().translation(Vector::Y * 3.0),
+//!     ColliderBuilder::cuboid(0.0365, 0.00015, 0.021).density(400.0),
+//! );
+//! let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaf)?;
+//! let mass = DryMass::of_body(&world.bodies, &world.colliders, leaf)?;
+//!
+//! // Offline: what does the leaf do for which coefficients? (4³ falls; 9³ take half a second.)
+//! let mut experiment = Experiment::new(hydro.clone(), mass, Fluid::AIR);
+//! experiment.release.tilt_axis = 80f64.to_radians();
+//! let mut sweep = Sweep::new(Grid::of_coefficients(4, 3.0)?);
+//! let classifier = Classifier::default();
+//! sweep.run_coefficients(&experiment, &classifier, |_, _| ControlFlow::Continue(()))?;
+//! let subspaces = Subspaces::new(sweep.grid().clone(), sweep.patterns()?)?;
+//!
+//! // "Flutter, then tumble."
+//! let graph = MotionGraph::thesis();
+//! let planner = Planner::new(experiment.clone(), subspaces, &graph, PlannerParams::default())?;
+//! let plan = planner.plan_sequence(&[Pattern::Zigzag, Pattern::Autorotation], 1)?;
+//!
+//! // At run time.
+//! world.bodies[leaf].set_rotation(experiment.release.rotation(&hydro), true);
+//! let mut immersion = Immersion::new(Fluid::AIR);
+//! immersion.insert(leaf, hydro);
+//! immersion.play(leaf, &plan.series, OnContact::Restart);
+//! for _ in 0..60 {
+//!     immersion.step(&mut world);
+//! }
+//! assert_eq!(immersion.control(leaf), Some(plan.series.at(59.5 / 120.0)));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Everything here is offline work; with the feature `bake` it uses all cores.
+
+pub mod cluster;
+pub mod energy;
+pub mod experiment;
+#[cfg(feature = "serde-serialize")]
+mod file;
+pub mod grid;
+pub mod plan;
+pub mod planner;
+pub mod subspace;
+pub mod sweep;
+
+pub use cluster::Clusters;
+pub use energy::{ControlBox, EnergyObjective};
+pub use experiment::{Experiment, Release, thin_ellipsoid};
+pub use grid::{Axis, Grid};
+pub use plan::{DwellReport, Plan, PlannerParams};
+pub use planner::Planner;
+pub use subspace::Subspaces;
+pub use sweep::{Sample, Sweep};
