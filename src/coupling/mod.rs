@@ -10,6 +10,7 @@ mod original;
 pub mod preset;
 mod readout;
 mod step;
+mod wing;
 
 pub use immersion::{Immersion, Warning};
 pub use step::RapierSets;
