@@ -132,9 +132,9 @@ pub(super) struct Air<'a> {
     pub clock: &'a Clock,
 }
 
-impl Air<'_> {
+impl<'a> Air<'a> {
     #[inline(always)]
-    pub fn motion(&self, flyer: &Flyer) -> &Integrated {
+    pub fn motion(&self, flyer: &Flyer) -> &'a Integrated {
         const REST: &Integrated = &Integrated {
             attitude: [0.0, 0.0, 0.0, 1.0],
             linear: [0.0; 4],
@@ -216,6 +216,7 @@ impl OnLanes for Flock<'_> {
                 Wing {
                     simd,
                     bodies,
+                    kept: std::array::from_fn(|lane| air.motion(bodies[lane])),
                     constants,
                     symmetric: self.route.symmetric,
                     turned_by_buoyancy: (0..MOST_LANES).any(|lane| kind(lane).buoyancy_turns),

@@ -7,7 +7,7 @@ use super::kind::{Law, StepConstants};
 use crate::dynamics::integrate::{Load, Motion, advance, rotate, rotate_back, substeps};
 use crate::dynamics::kirchhoff::Twist;
 use crate::hydro::viscous::physical::PlatesOnly;
-use crate::math::{Lanes, MOST_LANES, Row};
+use crate::math::{Lanes, MOST_LANES, Row, Scalar};
 use fearless_simd::Simd;
 use rapier3d::na::{Quaternion, Vector3};
 
@@ -15,6 +15,8 @@ use rapier3d::na::{Quaternion, Vector3};
 pub(super) struct Wing<'a, S: Simd> {
     pub simd: S,
     pub bodies: [&'a Flyer; MOST_LANES],
+    /// What they keep from step to step.
+    pub kept: [&'a Integrated; MOST_LANES],
     pub constants: &'a StepConstants<Lanes<S>>,
     /// Of their route.
     pub symmetric: bool,
@@ -26,6 +28,11 @@ pub(super) struct Wing<'a, S: Simd> {
     pub air: Air<'a>,
 }
 
+#[inline(always)]
+fn quaternion<T: Scalar>((axis, w): (Vector3<T>, T)) -> Quaternion<T> {
+    Quaternion::new(w, axis.x, axis.y, axis.z)
+}
+
 impl<S: Simd> Wing<'_, S> {
     /// Vectors side by side, and the number that came with them.
     #[inline(always)]
@@ -34,16 +41,11 @@ impl<S: Simd> Wing<'_, S> {
         (Vector3::new(x, y, z), more)
     }
 
-    #[inline(always)]
-    fn quaternions(&self, row: impl Fn(&Flyer) -> Row) -> Quaternion<Lanes<S>> {
-        let (axis, w) = self.vectors(row);
-        Quaternion::new(w, axis.x, axis.y, axis.z)
-    }
-
     /// Of what the bodies keep from step to step.
     #[inline(always)]
     fn kept(&self, row: impl Fn(&Integrated) -> Row) -> (Vector3<Lanes<S>>, Lanes<S>) {
-        self.vectors(|flyer| row(self.air.motion(flyer)))
+        let [x, y, z, more] = Lanes::side_by_side(self.simd, |lane| row(self.kept[lane]));
+        (Vector3::new(x, y, z), more)
     }
 
     /// Of what most bodies have none of.
@@ -64,7 +66,7 @@ impl<S: Simd> Wing<'_, S> {
         let lit = |value| Lanes::splat(self.simd, value);
         let zero = lit(0.0);
         let nothing = Vector3::repeat(zero);
-        let attitude = self.quaternions(|flyer| self.air.motion(flyer).attitude);
+        let attitude = quaternion(self.kept(|m| m.attitude));
         let (linear, last) = self.kept(|m| m.linear);
         let (angular, _) = self.kept(|m| m.angular);
         let mut motion = Motion {
@@ -136,7 +138,7 @@ impl<S: Simd> Wing<'_, S> {
         }
         let target = Target {
             pace: &clock.pace,
-            attitude: self.quaternions(|f| f.rapier_attitude),
+            attitude: quaternion(self.vectors(|f| f.rapier_attitude)),
             end_attitude: motion.attitude,
             linear: rapier_linear,
             angular: rapier_angular,
