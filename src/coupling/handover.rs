@@ -24,26 +24,25 @@
 //! A body in **contact** or held by a joint gets a force alone, since setting velocities would keep a
 //! pile from coming to rest.
 
-use crate::dynamics::kirchhoff::cross;
-use crate::math::{Lanes, Scalar};
+use crate::dynamics::integrate::conjugate;
+use crate::dynamics::kirchhoff::{choose, cross};
+use crate::math::Scalar;
 use rapier3d::na::{Quaternion, Vector3};
-
-type V = Vector3<Lanes>;
 
 /// How rapier steps, and the coefficients of the series that follow from it.
 #[derive(Clone, Copy)]
 pub(super) struct Pace {
     /// Time step, s, and its inverse.
-    dt: Lanes,
-    per_dt: Lanes,
+    dt: f64,
+    per_dt: f64,
     /// Whether rapier takes more than one substep; if not, velocity and pose cannot both be right.
     split: bool,
     /// Δ' per v₁ − v̄.
-    gain: Lanes,
-    kappa: Lanes,
-    mu: Lanes,
-    lambda: Lanes,
-    cayley: Lanes,
+    gain: f64,
+    kappa: f64,
+    mu: f64,
+    lambda: f64,
+    cayley: f64,
 }
 
 impl Pace {
@@ -54,142 +53,159 @@ impl Pace {
         let shrunk = 1.0 - 1.0 / n2;
         let dt = f64::from(dt);
         Self {
-            dt: Lanes::lit(dt),
-            per_dt: Lanes::lit(1.0 / dt),
+            dt,
+            per_dt: 1.0 / dt,
             split: substeps > 1,
-            gain: Lanes::lit(2.0 * n / (n - 1.0).max(1.0)),
-            kappa: Lanes::lit(shrunk / 12.0),
-            mu: Lanes::lit(shrunk * (1.0 - 9.0 / n2) / 720.0),
-            lambda: Lanes::lit(shrunk * (1.0 - 2.0 / (3.0 * n2)) / 240.0),
-            cayley: Lanes::lit(1.0 / (12.0 * n2)),
+            gain: 2.0 * n / (n - 1.0).max(1.0),
+            kappa: shrunk / 12.0,
+            mu: shrunk * (1.0 - 9.0 / n2) / 720.0,
+            lambda: shrunk * (1.0 - 2.0 / (3.0 * n2)) / 240.0,
+            cayley: 1.0 / (12.0 * n2),
         }
     }
 }
 
 /// What rapier's bodies have, and what they shall have.
-pub(super) struct Target<'a> {
+pub(super) struct Target<'a, T> {
     pub pace: &'a Pace,
     /// Plate axes to world, now and at the end of the step.
-    pub attitude: Quaternion<Lanes>,
-    pub end_attitude: Quaternion<Lanes>,
+    pub attitude: Quaternion<T>,
+    pub end_attitude: Quaternion<T>,
     /// Velocities now.
-    pub linear: V,
-    pub angular: V,
+    pub linear: Vector3<T>,
+    pub angular: Vector3<T>,
     /// Velocities at the end of the step.
-    pub end_linear: V,
-    pub end_angular: V,
+    pub end_linear: Vector3<T>,
+    pub end_angular: Vector3<T>,
     /// Displacement of the center of mass over the step.
-    pub displacement: V,
+    pub displacement: Vector3<T>,
     /// 1 where the body is free, 0 where it touches something.
-    pub free: Lanes,
+    pub free: T,
 }
 
 /// What rapier's bodies are given before the step.
-pub(super) struct Handover {
+pub(super) struct Handover<T> {
     /// Velocities to start from.
-    pub start_linear: V,
-    pub start_angular: V,
+    pub start_linear: Vector3<T>,
+    pub start_angular: Vector3<T>,
     /// Accelerations, linear (m/s²) and angular (rad/s²), that the force and the torque shall cause.
-    pub push: V,
-    pub twist: V,
+    pub push: Vector3<T>,
+    pub twist: Vector3<T>,
 }
 
 /// Passes over the small terms of the series; each leaves about a hundredth of the error.
 const REFINEMENTS: usize = 2;
 
-impl Target<'_> {
+impl<T: Scalar> Target<'_, T> {
     #[inline(always)]
-    pub fn hand_over(&self) -> Handover {
+    pub fn hand_over(&self) -> Handover<T> {
         let pace = self.pace;
+        let lit = |value| self.free.lit(value);
+        let (per_dt, gain) = (lit(pace.per_dt), lit(pace.gain));
         // In contact: the whole change by the force.
         let push = self.end_linear - self.linear;
         let twist = self.end_angular - self.angular;
         let (free_push, free_twist) = if pace.split {
-            let mean = self.displacement * pace.per_dt;
+            let mean = self.displacement * per_dt;
             let spin = self.mean_spin();
             (
-                (self.end_linear - mean) * pace.gain,
-                (self.end_angular - spin) * pace.gain,
+                (self.end_linear - mean) * gain,
+                (self.end_angular - spin) * gain,
             )
         } else {
             (push, twist)
         };
-        let touching = Lanes::lit(0.5);
-        let choose =
-            |free: &V, touch: &V| free.zip_map(touch, |f, t| t.where_less(self.free, touching, f));
+        let touching = lit(0.5);
         Handover {
-            start_linear: choose(&(self.end_linear - free_push), &self.linear),
-            start_angular: choose(&(self.end_angular - free_twist), &self.angular),
-            push: choose(&free_push, &push) * pace.per_dt,
-            twist: choose(&free_twist, &twist) * pace.per_dt,
+            start_linear: choose(
+                &self.linear,
+                self.free,
+                touching,
+                &(self.end_linear - free_push),
+            ),
+            start_angular: choose(
+                &self.angular,
+                self.free,
+                touching,
+                &(self.end_angular - free_twist),
+            ),
+            push: choose(&push, self.free, touching, &free_push) * per_dt,
+            twist: choose(&twist, self.free, touching, &free_twist) * per_dt,
         }
     }
 
     /// The mean angular velocity with which rapier's substeps turn the body to `end_attitude`.
     #[inline(always)]
-    fn mean_spin(&self) -> V {
+    fn mean_spin(&self) -> Vector3<T> {
         let pace = self.pace;
-        let (one, two) = (Lanes::lit(1.0), Lanes::lit(2.0));
+        let lit = |value| self.free.lit(value);
+        let (one, two) = (lit(1.0), lit(2.0));
+        let nothing = Vector3::repeat(lit(0.0));
+        let (dt, per_dt, gain) = (lit(pace.dt), lit(pace.per_dt), lit(pace.gain));
+        let (kappa, mu, lambda) = (lit(pace.kappa), lit(pace.mu), lit(pace.lambda));
+        let cayley = lit(pace.cayley);
         let turn = product(&self.end_attitude, &conjugate(&self.attitude));
         let turn = rotation_vector(&turn);
         // τ = gain (ε − σ), so that κσ × τ is linear in σ: (1 + κ gain ε ×) σ = R + the rest.
-        let end = self.end_angular * pace.dt;
-        let skew = end * (pace.kappa * pace.gain);
+        let end = self.end_angular * dt;
+        let skew = end * (kappa * gain);
         let per = one / (one + dot(&skew, &skew));
-        let solve = |b: &V| (b - cross(&skew, b) + skew * dot(&skew, b)) * per;
-        let mut mean = solve(&turn);
+        let mut mean = unskewed(&skew, per, &turn);
         for _ in 0..REFINEMENTS {
-            let change = (end - mean) * pace.gain;
+            let change = (end - mean) * gain;
             let across = cross(&mean, &change);
             let mean2 = dot(&mean, &mean);
             let aligned = dot(&mean, &change);
-            let small = across * (pace.mu * mean2) - cross(&across, &change) * pace.lambda
-                + (mean * (mean2 + pace.kappa * dot(&change, &change))
-                    + change * (two * pace.kappa * aligned))
-                    * pace.cayley;
+            let small = across * (mu * mean2) - cross(&across, &change) * lambda
+                + (mean * (mean2 + kappa * dot(&change, &change))
+                    + change * (two * kappa * aligned))
+                    * cayley;
             // Beyond a radian or two the series means nothing.
-            let within = dot(&small, &small) * Lanes::lit(16.0);
-            let small = small.map(|x| x.where_less(within, mean2, Lanes::lit(0.0)));
-            mean = solve(&(turn + small));
+            let within = dot(&small, &small) * lit(16.0);
+            let small = choose(&small, within, mean2, &nothing);
+            mean = unskewed(&skew, per, &(turn + small));
         }
-        mean * pace.per_dt
+        mean * per_dt
     }
 }
 
+/// Solves `x + s × x = b`, where `per` is 1/(1 + s²).
 #[inline(always)]
-fn conjugate(q: &Quaternion<Lanes>) -> Quaternion<Lanes> {
-    Quaternion::new(q.w, -q.i, -q.j, -q.k)
+fn unskewed<T: Scalar>(s: &Vector3<T>, per: T, b: &Vector3<T>) -> Vector3<T> {
+    (b - cross(s, b) + s * dot(s, b)) * per
 }
 
 /// Quaternion product, written out.
 #[inline(always)]
-fn product(p: &Quaternion<Lanes>, q: &Quaternion<Lanes>) -> Quaternion<Lanes> {
+fn product<T: Scalar>(p: &Quaternion<T>, q: &Quaternion<T>) -> Quaternion<T> {
+    let (p, q) = (&p.coords, &q.coords);
     Quaternion::new(
-        p.w * q.w - p.i * q.i - p.j * q.j - p.k * q.k,
-        p.w * q.i + p.i * q.w + p.j * q.k - p.k * q.j,
-        p.w * q.j - p.i * q.k + p.j * q.w + p.k * q.i,
-        p.w * q.k + p.i * q.j - p.j * q.i + p.k * q.w,
+        p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z,
+        p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
+        p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x,
+        p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w,
     )
 }
 
 #[inline(always)]
-fn dot(a: &V, b: &V) -> Lanes {
+fn dot<T: Scalar>(a: &Vector3<T>, b: &Vector3<T>) -> T {
     a.x * b.x + a.y * b.y + a.z * b.z
 }
 
 /// Rotation vector of a unit quaternion, the shorter way round: `4 atan(t)` along the axis, with
 /// t = tan(θ/4) ≤ 1 and the arc tangent as its series, to 5e-5 for turns by two radians.
 #[inline(always)]
-fn rotation_vector(q: &Quaternion<Lanes>) -> V {
-    let one = Lanes::lit(1.0);
-    let sign = Lanes::lit(-1.0).where_less(q.w, Lanes::lit(0.0), one);
-    let t = Vector3::new(q.i, q.j, q.k) * (sign / (one + q.w * sign));
+fn rotation_vector<T: Scalar>(q: &Quaternion<T>) -> Vector3<T> {
+    let (q, w) = (q.coords.xyz(), q.coords.w);
+    let one = w.lit(1.0);
+    let sign = w.lit(-1.0).where_less(w, w.lit(0.0), one);
+    let t = q * (sign / (one + w * sign));
     let t2 = dot(&t, &t);
-    let mut series = Lanes::lit(-1.0 / 11.0);
+    let mut series = w.lit(-1.0 / 11.0);
     for term in [1.0 / 9.0, -1.0 / 7.0, 0.2, -1.0 / 3.0, 1.0] {
-        series = series * t2 + Lanes::lit(term);
+        series = series * t2 + w.lit(term);
     }
-    t * (series * Lanes::lit(4.0))
+    t * (series * w.lit(4.0))
 }
 
 #[cfg(test)]
@@ -198,17 +214,16 @@ mod tests {
     use crate::dynamics::integrate::rotate;
     use rapier3d::math::{Rotation, Vector};
 
-    fn lanes(v: Vector) -> V {
-        Vector3::new(v.x, v.y, v.z).map(|x| Lanes::lit(x.into()))
+    fn to_nalgebra(v: Vector) -> Vector3<f32> {
+        Vector3::new(v.x, v.y, v.z)
     }
 
-    fn quaternion(q: Rotation) -> Quaternion<Lanes> {
-        let [x, y, z, w] = q.to_array().map(|x| Lanes::lit(x.into()));
-        Quaternion::new(w, x, y, z)
+    fn quaternion(q: Rotation) -> Quaternion<f32> {
+        Quaternion::new(q.w, q.x, q.y, q.z)
     }
 
-    fn first(v: &V) -> Vector {
-        Vector::from_array([v.x, v.y, v.z].map(|x| x.0.to_array()[0]))
+    fn vector(v: &Vector3<f32>) -> Vector {
+        Vector::new(v.x, v.y, v.z)
     }
 
     /// Replays what rapier's solver does with the handover (velocity increment, then a Cayley
@@ -228,22 +243,22 @@ mod tests {
                 pace: &Pace::new(dt, 4),
                 attitude: quaternion(start),
                 end_attitude: quaternion(end),
-                linear: lanes(linear),
-                angular: lanes(angular),
-                end_linear: lanes(end_linear),
-                end_angular: lanes(end_angular),
-                displacement: lanes(moved),
-                free: Lanes::lit(1.0),
+                linear: to_nalgebra(linear),
+                angular: to_nalgebra(angular),
+                end_linear: to_nalgebra(end_linear),
+                end_angular: to_nalgebra(end_angular),
+                displacement: to_nalgebra(moved),
+                free: 1.0,
             };
             let handover = target.hand_over();
             let (mut v, mut w) = (
-                first(&handover.start_linear),
-                first(&handover.start_angular),
+                vector(&handover.start_linear),
+                vector(&handover.start_angular),
             );
             let (mut x, mut q) = (Vector::ZERO, start);
             for _ in 0..4 {
-                v += first(&handover.push) * (dt / 4.0);
-                w += first(&handover.twist) * (dt / 4.0);
+                v += vector(&handover.push) * (dt / 4.0);
+                w += vector(&handover.twist) * (dt / 4.0);
                 x += v * (dt / 4.0);
                 let a = w * (dt / 8.0);
                 q = (Rotation::from_xyzw(a.x, a.y, a.z, 1.0) * q).normalize();
@@ -263,9 +278,9 @@ mod tests {
         let v = Vector::new(0.02, -0.01, 0.03);
         for sign in [1.0, -1.0] {
             let q = Rotation::from_scaled_axis(v) * sign;
-            assert!((first(&rotation_vector(&quaternion(q))) - v).length() < 1e-7);
+            assert!((vector(&rotation_vector(&quaternion(q))) - v).length() < 1e-7);
         }
-        let axis = rotate(&quaternion(Rotation::from_scaled_axis(v)), &lanes(v));
-        assert!((first(&axis) - v).length() < 1e-7);
+        let axis = rotate(&quaternion(Rotation::from_scaled_axis(v)), &to_nalgebra(v));
+        assert!((vector(&axis) - v).length() < 1e-7);
     }
 }

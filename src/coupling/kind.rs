@@ -2,28 +2,108 @@
 
 use crate::Error;
 use crate::body::{BodyConstants, DryMass, ImmersedBody, InertiaConstants, LawConstants};
+use crate::dynamics::integrate::Inviscid;
 use crate::dynamics::kirchhoff::{Twist, skew};
 use crate::fluid::Fluid;
-use crate::hydro::viscous::physical::PhysicalConstants;
+use crate::hydro::viscous::physical::{PhysicalConstants, PlatesOnly};
 use crate::hydro::viscous::stochastic::StochasticConstants;
 use crate::hydro::viscous::thesis::ThesisConstants;
-use crate::math::{Lanes, scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
+use crate::hydro::viscous::{Evaluate, ViscousTerms};
+use crate::math::{Lanes, Scalar, scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
+use fearless_simd::Simd;
 use rapier3d::dynamics::MassProperties;
 use rapier3d::math::{Rotation, Vector};
 use rapier3d::na::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 
-/// The law's constants in rapier's precision, the same in every lane.
+/// The law's constants: `f32`, or [`Lanes`] of it.
 // One per kind: a box would save nothing.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug)]
-pub(super) enum LawLanes {
+pub(super) enum Law<T> {
     Inviscid,
     /// The default law for a body that is purely a plate to it …
-    Plate(PhysicalConstants<Lanes>),
+    Plate(PhysicalConstants<T>),
     /// … and for one that is not.
-    Physical(PhysicalConstants<Lanes>),
-    Thesis(ThesisConstants<Lanes>),
-    Stochastic(StochasticConstants<Lanes>),
+    Physical(PhysicalConstants<T>),
+    Thesis(ThesisConstants<T>),
+    Stochastic(StochasticConstants<T>),
+}
+
+impl<T: Scalar> Evaluate<T> for Law<T> {
+    #[inline(always)]
+    fn least_iterations(&self) -> u32 {
+        match self {
+            Self::Inviscid => Evaluate::<T>::least_iterations(&Inviscid),
+            Self::Plate(law) => PlatesOnly(law).least_iterations(),
+            Self::Physical(law) => law.least_iterations(),
+            Self::Thesis(law) => law.least_iterations(),
+            Self::Stochastic(law) => law.least_iterations(),
+        }
+    }
+
+    #[inline(always)]
+    fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
+        match self {
+            Self::Inviscid => Inviscid.terms(u, w),
+            Self::Plate(law) => PlatesOnly(law).terms(u, w),
+            Self::Physical(law) => law.terms(u, w),
+            Self::Thesis(law) => law.terms(u, w),
+            Self::Stochastic(law) => law.terms(u, w),
+        }
+    }
+}
+
+/// What the step needs of a kind: `f32`, or [`Lanes`] of it.
+#[derive(Clone, Debug)]
+pub(super) struct StepConstants<T> {
+    pub inertia: InertiaConstants<T>,
+    pub law: Law<T>,
+    pub scales: Scales<T>,
+}
+
+impl<S: Simd> StepConstants<Lanes<S>> {
+    /// One kind in every lane.
+    #[inline(always)]
+    pub fn splat(simd: S, kind: &StepConstants<f32>) -> Self {
+        let law = match &kind.law {
+            Law::Inviscid => Law::Inviscid,
+            Law::Plate(law) => Law::Plate(PhysicalConstants::splat(simd, law)),
+            Law::Physical(law) => Law::Physical(PhysicalConstants::splat(simd, law)),
+            Law::Thesis(law) => Law::Thesis(ThesisConstants::splat(simd, law)),
+            Law::Stochastic(law) => Law::Stochastic(StochasticConstants::splat(simd, law)),
+        };
+        Self {
+            inertia: InertiaConstants::splat(simd, &kind.inertia),
+            law,
+            scales: Scales::splat(simd, &kind.scales),
+        }
+    }
+
+    /// Kinds of one [`Route`] side by side.
+    #[inline(always)]
+    pub fn gather<'a>(simd: S, of: impl Fn(usize) -> &'a StepConstants<f32>) -> Self {
+        // Of one route, all laws are the same variant.
+        macro_rules! side_by_side {
+            ($variant:ident, $constants:ident, $first:ident) => {
+                Law::$variant($constants::gather(simd, |lane| match &of(lane).law {
+                    Law::$variant(law) => law,
+                    _ => $first,
+                }))
+            };
+        }
+        let law = match &of(0).law {
+            Law::Inviscid => Law::Inviscid,
+            Law::Plate(first) => side_by_side!(Plate, PhysicalConstants, first),
+            Law::Physical(first) => side_by_side!(Physical, PhysicalConstants, first),
+            Law::Thesis(first) => side_by_side!(Thesis, ThesisConstants, first),
+            Law::Stochastic(first) => side_by_side!(Stochastic, StochasticConstants, first),
+        };
+        Self {
+            inertia: InertiaConstants::gather(simd, |lane| &of(lane).inertia),
+            law,
+            scales: Scales::gather(simd, |lane| &of(lane).scales),
+        }
+    }
 }
 
 scalar_struct! {
@@ -57,11 +137,11 @@ scalar_struct! {
     }
 }
 
-impl Scales<Lanes> {
+impl<T: Scalar> Scales<T> {
     /// Change of the velocity of a body when the fluid around it changes its own by `change`, plate
     /// axes. A neutrally buoyant body follows exactly.
     #[inline(always)]
-    pub fn pushed_by(&self, change: &Vector3<Lanes>) -> Twist<Lanes> {
+    pub fn pushed_by(&self, change: &Vector3<T>) -> Twist<T> {
         let (x, y, z) = (change.x, change.y, change.z);
         Twist {
             linear: Vector3::new(
@@ -79,7 +159,7 @@ impl Scales<Lanes> {
 
     /// Torque that causes an angular acceleration in rapier, plate axes.
     #[inline(always)]
-    pub fn turn(&self, a: &Vector3<Lanes>) -> Vector3<Lanes> {
+    pub fn turn(&self, a: &Vector3<T>) -> Vector3<T> {
         Vector3::new(
             self.turn_xx * a.x + self.turn_xy * a.y + self.turn_xz * a.z,
             self.turn_xy * a.x + self.turn_yy * a.y + self.turn_yz * a.z,
@@ -121,9 +201,7 @@ pub(super) struct Kind {
     /// Index of the description.
     pub description: u32,
     pub constants: BodyConstants,
-    pub inertia: InertiaConstants<Lanes>,
-    pub law: LawLanes,
-    pub scales: Scales<Lanes>,
+    pub step: StepConstants<f32>,
     /// Plate axes to the body's frame.
     pub axes: Rotation,
     pub route: Route,
@@ -148,19 +226,17 @@ impl Kind {
     ) -> Result<Self, Error> {
         let constants = BodyConstants::new(body, dry, fluid)?;
         let law = match &constants.law {
-            LawConstants::Inviscid => LawLanes::Inviscid,
+            LawConstants::Inviscid => Law::Inviscid,
             LawConstants::Physical(law) => {
-                let lanes = PhysicalConstants::from_f64(law);
+                let rounded = PhysicalConstants::rounded(law);
                 if law.plate_share == 1.0 {
-                    LawLanes::Plate(lanes)
+                    Law::Plate(rounded)
                 } else {
-                    LawLanes::Physical(lanes)
+                    Law::Physical(rounded)
                 }
             }
-            LawConstants::Thesis(law) => LawLanes::Thesis(ThesisConstants::from_f64(law)),
-            LawConstants::Stochastic(law) => {
-                LawLanes::Stochastic(StochasticConstants::from_f64(law))
-            }
+            LawConstants::Thesis(law) => Law::Thesis(ThesisConstants::rounded(law)),
+            LawConstants::Stochastic(law) => Law::Stochastic(StochasticConstants::rounded(law)),
         };
         let (mass, length) = (constants.mass, constants.length);
         let arm = constants.axes.inverse() * constants.buoyancy_arm / length;
@@ -177,11 +253,11 @@ impl Kind {
         let route = Route {
             symmetric: constants.symmetric,
             law: match law {
-                LawLanes::Inviscid => 0,
-                LawLanes::Plate(_) => 1,
-                LawLanes::Physical(_) => 2,
-                LawLanes::Thesis(_) => 3,
-                LawLanes::Stochastic(_) => 4,
+                Law::Inviscid => 0,
+                Law::Plate(_) => 1,
+                Law::Physical(_) => 2,
+                Law::Thesis(_) => 3,
+                Law::Stochastic(_) => 4,
             },
         };
         // What an accelerating flow does, first in the body's axes, then in the plate's.
@@ -235,9 +311,11 @@ impl Kind {
         };
         Ok(Self {
             description,
-            inertia: InertiaConstants::from_f64(&constants.inertia),
-            law,
-            scales: Scales::from_f64(&scales),
+            step: StepConstants {
+                inertia: InertiaConstants::rounded(&constants.inertia),
+                law,
+                scales: Scales::rounded(&scales),
+            },
             axes: to_rotation(UnitQuaternion::from_rotation_matrix(&constants.axes)),
             route,
             buoyancy_turns: arm.amax() > 1e-7,

@@ -13,6 +13,7 @@ pub mod preset;
 mod readout;
 mod step;
 mod stream;
+mod wing;
 
 pub use follow::{FollowParams, Followed};
 pub use immersion::{Immersion, Warning};

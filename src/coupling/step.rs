@@ -183,14 +183,13 @@ impl Immersion {
             body.reset_torques(false);
             body.add_force(borrowed.force, false);
             body.add_torque(borrowed.torque, false);
+            if !borrowed.touching {
+                continue;
+            }
             let Some(slot) = &mut self.slots[borrowed.slot as usize] else {
                 continue;
             };
             let flight = &mut slot.flight;
-            if !borrowed.touching {
-                flight.contact = 0;
-                continue;
-            }
             if flight.contact >= IMPACT {
                 continue;
             }
@@ -554,6 +553,9 @@ impl Immersion {
             let mass = flyer.solver_mass.into();
             original.set_mass(kind, mass, flyer.handle, sets.bodies, sets.colliders);
             slot.flight.solver_mass = flyer.solver_mass;
+        }
+        if !flyer.may_sleep {
+            slot.flight.contact = 0;
         }
         slot.flight.motion = landing.motion;
         slot.flight.end_linear = vector(landing.end_linear);

@@ -93,8 +93,8 @@ fn fly(case: &Case, design: Design, h: f64) -> Option<Vector3<f64>> {
             linear: Vector3::zeros(),
             angular: Vector3::new(1.0, 0.3, 0.2).normalize() * (case.spin * constants.length),
         },
-        rate: Twist::zero(),
-        trend: Twist::zero(),
+        rate: Twist::zero(0.0),
+        trend: Twist::zero(0.0),
         last: 0.0,
     };
     for _ in 0..(case.seconds / h).round() as usize {

@@ -49,9 +49,9 @@ impl FreeBody {
             control: [1.0; 3],
             position: Vector3::zeros(),
             attitude,
-            velocity: Twist::zero(),
-            rate: Twist::zero(),
-            trend: Twist::zero(),
+            velocity: Twist::zero(0.0),
+            rate: Twist::zero(0.0),
+            trend: Twist::zero(0.0),
             last: 0.0,
         })
     }
@@ -89,8 +89,8 @@ impl FreeBody {
             linear: self.attitude.inverse() * linear,
             angular: self.attitude.inverse() * angular * self.constants.length,
         };
-        self.rate = Twist::zero();
-        self.trend = Twist::zero();
+        self.rate = Twist::zero(0.0);
+        self.trend = Twist::zero(0.0);
         self.last = 0.0;
     }
 

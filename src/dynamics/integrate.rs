@@ -38,7 +38,7 @@
 //! heavy fluid along; implicit Euler is stable but damps flutter away. The midpoint scheme is stable
 //! everywhere and, at the default of 0.6 chords per substep, within a percent for what falls in air.
 
-use super::kirchhoff::{Twist, cross};
+use super::kirchhoff::{Twist, choose, cross};
 use crate::body::InertiaConstants;
 use crate::hydro::viscous::{Evaluate, ViscousTerms, safe_inverse};
 use crate::math::Scalar;
@@ -113,37 +113,54 @@ pub(crate) struct Load<T> {
 /// `q v q*` for a unit quaternion.
 #[inline(always)]
 pub(crate) fn rotate<T: Scalar>(q: &Quaternion<T>, v: &Vector3<T>) -> Vector3<T> {
-    let a = Vector3::new(q.i, q.j, q.k);
+    let a = q.coords.xyz();
     let t = cross(&a, v);
     let t = t + t;
-    v + t * q.w + cross(&a, &t)
+    v + t * q.coords.w + cross(&a, &t)
+}
+
+/// `q*`
+#[inline(always)]
+pub(crate) fn conjugate<T: Scalar>(q: &Quaternion<T>) -> Quaternion<T> {
+    let q = &q.coords;
+    Quaternion::new(q.w, -q.x, -q.y, -q.z)
 }
 
 /// `q* v q` for a unit quaternion.
 #[inline(always)]
 pub(crate) fn rotate_back<T: Scalar>(q: &Quaternion<T>, v: &Vector3<T>) -> Vector3<T> {
-    rotate(&Quaternion::new(q.w, -q.i, -q.j, -q.k), v)
+    rotate(&conjugate(q), v)
 }
 
 /// `q · cay(2a)`: the attitude turned by the body-axes rotation whose half tangent is `a`. As long as
 /// `q` is.
 #[inline(always)]
 fn turned<T: Scalar>(q: &Quaternion<T>, a: &Vector3<T>) -> Quaternion<T> {
-    let (x, y, z) = (a.x, a.y, a.z);
-    let per = T::one() / (T::one() + norm2(a)).root();
+    let (q, x, y, z) = (&q.coords, a.x, a.y, a.z);
+    let one = x.lit(1.0);
+    let per = one / (one + norm2(a)).root();
     Quaternion::new(
-        (q.w - q.i * x - q.j * y - q.k * z) * per,
-        (q.i + q.w * x + q.j * z - q.k * y) * per,
-        (q.j + q.w * y + q.k * x - q.i * z) * per,
-        (q.k + q.w * z + q.i * y - q.j * x) * per,
+        (q.w - q.x * x - q.y * y - q.z * z) * per,
+        (q.x + q.w * x + q.y * z - q.z * y) * per,
+        (q.y + q.w * y + q.z * x - q.x * z) * per,
+        (q.z + q.w * z + q.x * y - q.y * x) * per,
     )
+}
+
+/// `q` in the lanes where `a < b`, `other` elsewhere.
+#[inline(always)]
+fn either<T: Scalar>(q: &Quaternion<T>, a: T, b: T, other: &Quaternion<T>) -> Quaternion<T> {
+    let (q, other) = (&q.coords, &other.coords);
+    let axis = choose(&q.xyz(), a, b, &other.xyz());
+    Quaternion::new(q.w.where_less(a, b, other.w), axis.x, axis.y, axis.z)
 }
 
 /// Removes what rounding has done to the length.
 #[inline(always)]
 fn normalized<T: Scalar>(q: &Quaternion<T>) -> Quaternion<T> {
-    let norm = (q.w * q.w + q.i * q.i + q.j * q.j + q.k * q.k).root();
-    Quaternion::from_vector(q.coords * (T::one() / norm))
+    let q = q.coords;
+    let norm = (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z).root();
+    Quaternion::from_vector(q * (norm.lit(1.0) / norm))
 }
 
 /// The law of a body in an ideal fluid.
@@ -151,11 +168,14 @@ fn normalized<T: Scalar>(q: &Quaternion<T>) -> Quaternion<T> {
 pub(crate) struct Inviscid;
 
 impl<T: Scalar> Evaluate<T> for Inviscid {
-    const LEAST_ITERATIONS: u32 = 8;
+    #[inline(always)]
+    fn least_iterations(&self) -> u32 {
+        8
+    }
 
     #[inline(always)]
-    fn terms(&self, _u: &Vector3<T>, _w: &Vector3<T>) -> ViscousTerms<T> {
-        ViscousTerms::none()
+    fn terms(&self, u: &Vector3<T>, _w: &Vector3<T>) -> ViscousTerms<T> {
+        ViscousTerms::none(u.x)
     }
 }
 
@@ -170,12 +190,12 @@ pub(crate) fn substeps<T: Scalar>(
 ) -> T {
     let spin = norm(&motion.velocity.angular) * inertia.per_length;
     // A body that starts from rest will have moved by then.
-    let speed = norm(&motion.velocity.linear) + norm(&load.force) * dt * T::lit(0.5);
-    let turns = spin * T::lit(1.0 / integrator.max_turn);
-    let travels = speed / (inertia.chord * T::lit(integrator.max_travel));
+    let speed = norm(&motion.velocity.linear) + norm(&load.force) * dt * dt.lit(0.5);
+    let turns = spin * dt.lit(1.0 / integrator.max_turn);
+    let travels = speed / (inertia.chord * dt.lit(integrator.max_travel));
     let wanted = dt * turns.larger(travels);
-    let most = T::lit(f64::from(integrator.max_substeps.max(1)));
-    wanted.simd_ceil().larger(T::one()).smaller(most)
+    let most = dt.lit(f64::from(integrator.max_substeps.max(1)));
+    wanted.ceiling().larger(dt.lit(1.0)).smaller(most)
 }
 
 #[inline(always)]
@@ -198,20 +218,20 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     h: T,
     iterations: u32,
 ) {
-    let half = T::lit(0.5);
+    let (zero, half, one) = (h.lit(0.0), h.lit(0.5), h.lit(1.0));
     let start = motion.velocity;
     let ahead = motion
         .rate
         .add_scaled(&motion.trend, half * (motion.last + half * h));
     let mut middle = start.add_scaled(&ahead, half * h);
-    let mut delta = Twist::zero();
-    for _ in 0..iterations.max(L::LEAST_ITERATIONS) {
+    let mut delta = Twist::zero(h);
+    for _ in 0..iterations.max(law.least_iterations()) {
         let half_turn = middle.angular * (half * h * inertia.per_length);
         let attitude = turned(&motion.attitude, &(half_turn * half));
         let fluid_spin = if load.turning {
             rotate_back(&attitude, &load.fluid_spin)
         } else {
-            Vector3::repeat(T::zero())
+            Vector3::repeat(zero)
         };
         let terms = law.terms(
             &inertia.center_velocity(&middle),
@@ -219,7 +239,7 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
         );
         let mut push = Twist {
             linear: rotate_back(&attitude, &load.force),
-            angular: Vector3::repeat(T::zero()),
+            angular: Vector3::repeat(zero),
         };
         if load.turning {
             let buoyancy = rotate_back(&attitude, &load.buoyancy);
@@ -240,45 +260,30 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
         let slow = along_x.larger(along_y).larger(along_z);
         let pressure = terms.drag * norm2(u) * safe_inverse(inertial);
         let z = h * (pressure + slow);
-        let theta = half.larger(T::one() - safe_inverse(z));
+        let theta = half.larger(one - safe_inverse(z));
         delta = inertia.increment::<SYMMETRIC>(&terms, &start, &middle, &push, h, theta);
         middle = start.add_scaled(&delta, half);
     }
 
-    motion.velocity = start.add_scaled(&delta, T::one());
+    motion.velocity = start.add_scaled(&delta, one);
     // A lane that is done has h = 0 and keeps its history.
-    let done = T::lit(1e-12);
-    let per_h = T::one() / h.larger(done);
-    let rate = |new: &Vector3<T>, old: &Vector3<T>| {
-        new.zip_map(old, |new, old| old.where_less(h, done, new * per_h))
-    };
+    let done = h.lit(1e-12);
+    let per_h = one / h.larger(done);
     let old = motion.rate;
-    motion.rate = Twist {
-        linear: rate(&delta.linear, &motion.rate.linear),
-        angular: rate(&delta.angular, &motion.rate.angular),
-    };
-    let per = (T::one() + T::one()) / (motion.last + h);
-    let per = T::zero().where_less(motion.last, done, per);
-    let trend = motion.rate.add_scaled(&old, -T::one());
-    let pick = |new: &Vector3<T>, old: &Vector3<T>| {
-        new.zip_map(old, |new, old| old.where_less(h, done, new * per))
-    };
-    motion.trend = Twist {
-        linear: pick(&trend.linear, &motion.trend.linear),
-        angular: pick(&trend.angular, &motion.trend.angular),
-    };
+    motion.rate = old.where_less(h, done, &delta.scaled(per_h));
+    let per = (one + one) / (motion.last + h);
+    let per = zero.where_less(motion.last, done, per);
+    let trend = motion.rate.add_scaled(&old, -one).scaled(per);
+    motion.trend = motion.trend.where_less(h, done, &trend);
     motion.last = motion.last.where_less(h, done, h);
 
     let a = middle.angular * (half * h * inertia.per_length);
     let moved = (middle.linear + cross(&a, &middle.linear))
-        * (h / (T::one() + a.x * a.x + a.y * a.y + a.z * a.z));
+        * (h / (one + a.x * a.x + a.y * a.y + a.z * a.z));
     motion.displacement += rotate(&motion.attitude, &moved);
     // Turning by nothing would still round.
     let turned = turned(&motion.attitude, &a);
-    let attitude = turned.coords.zip_map(&motion.attitude.coords, |new, old| {
-        old.where_less(h, done, new)
-    });
-    motion.attitude = Quaternion::from_vector(attitude);
+    motion.attitude = either(&motion.attitude, h, done, &turned);
 }
 
 /// Advances `motion` by `dt` in `count` substeps, of which `most` is the largest over the lanes.
@@ -296,35 +301,38 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
 ) {
     let start = *motion;
     let h = dt / count;
-    let mut done = T::zero();
+    let (zero, one) = (dt.lit(0.0), dt.lit(1.0));
+    let mut done = zero;
     for _ in 0..most {
         // Lanes that need fewer substeps than their neighbours stand still.
-        let h = h.where_less(done, count, T::zero());
+        let h = h.where_less(done, count, zero);
         substep::<SYMMETRIC, T, L>(inertia, law, load, motion, h, iterations);
-        done += T::one();
+        done += one;
     }
     // Whatever goes wrong (a law that pumps, a fluid at 10⁶ m/s), rapier never sees it: NaN fails
     // the comparison, and the body coasts through this step.
     let size =
         norm(&motion.velocity.linear) + norm(&motion.velocity.angular) + norm(&motion.displacement);
-    let limit = T::lit(1e6);
-    let keep = |new: T, old: T| new.where_less(size, limit, old);
-    let keep3 = |new: &Vector3<T>, old: &Vector3<T>| new.zip_map(old, keep);
-    motion.attitude = normalized(&motion.attitude);
-    motion.velocity.linear = keep3(&motion.velocity.linear, &start.velocity.linear);
-    motion.velocity.angular = keep3(&motion.velocity.angular, &start.velocity.angular);
-    motion.rate.linear = keep3(&motion.rate.linear, &Vector3::repeat(T::zero()));
-    motion.rate.angular = keep3(&motion.rate.angular, &Vector3::repeat(T::zero()));
+    let limit = dt.lit(1e6);
+    let resting = Twist::zero(zero);
+    let moved = &motion.displacement;
     let coasting = rotate(&start.attitude, &start.velocity.linear) * dt;
-    motion.displacement = keep3(&motion.displacement, &coasting);
-    let attitude = motion.attitude.coords.zip_map(&start.attitude.coords, keep);
-    motion.attitude = Quaternion::from_vector(attitude);
+    motion.displacement = choose(moved, size, limit, &coasting);
+    motion.velocity = motion.velocity.where_less(size, limit, &start.velocity);
+    motion.rate = motion.rate.where_less(size, limit, &resting);
+    motion.trend = motion.trend.where_less(size, limit, &resting);
+    let attitude = normalized(&motion.attitude);
+    motion.attitude = either(&attitude, size, limit, &start.attitude);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rapier3d::na::UnitQuaternion;
+    use crate::body::BodyConstants;
+    use crate::{DryMass, Fluid, HydroProperties, ImmersedBody};
+    use rapier3d::math::Vector;
+    use rapier3d::na::{Matrix3, UnitQuaternion};
+    use rapier3d::parry::shape::Cuboid;
 
     /// The lanes' own rotation against nalgebra's.
     #[test]
@@ -338,5 +346,58 @@ mod tests {
         let cayley = q * UnitQuaternion::from_quaternion(Quaternion::new(1.0, 0.01, -0.02, 0.03));
         let turned = UnitQuaternion::new_unchecked(turned(&raw, &small));
         assert!(turned.angle_to(&cayley) < 1e-7);
+    }
+    /// A law that has gone mad.
+    struct NotANumber;
+
+    impl Evaluate<f64> for NotANumber {
+        fn terms(&self, u: &Vector3<f64>, _w: &Vector3<f64>) -> ViscousTerms<f64> {
+            ViscousTerms {
+                drag: f64::NAN,
+                ..ViscousTerms::none(u.x)
+            }
+        }
+    }
+
+    /// A step that went wrong leaves nothing behind, so that the next one can go right.
+    #[test]
+    fn not_a_number_is_forgotten() {
+        let hydro = HydroProperties::from_shape(&Cuboid::new(Vector::new(0.04, 0.02, 0.001)));
+        let dry = DryMass {
+            mass: 1e-3,
+            center: Vector3::zeros(),
+            inertia: Matrix3::from_diagonal(&Vector3::new(1.3e-7, 5.3e-7, 6.6e-7)),
+        };
+        let body = ImmersedBody::new(hydro.unwrap());
+        let constants = BodyConstants::new(&body, &dry, &Fluid::AIR).unwrap();
+        let inertia = &constants.inertia;
+        let mut motion = Motion {
+            attitude: Quaternion::new(1.0, 0.0, 0.0, 0.0),
+            displacement: Vector3::zeros(),
+            velocity: Twist {
+                linear: Vector3::new(1.0, 0.5, 0.2),
+                angular: Vector3::new(0.1, 0.0, 0.3),
+            },
+            rate: Twist::zero(0.0),
+            trend: Twist::zero(0.0),
+            last: 0.01,
+        };
+        let load = Load {
+            force: Vector3::zeros(),
+            torque: Vector3::zeros(),
+            buoyancy: Vector3::zeros(),
+            buoyancy_arm: Vector3::zeros(),
+            fluid_spin: Vector3::zeros(),
+            turning: false,
+        };
+        let before = motion.velocity;
+        advance::<false, _, _>(inertia, &NotANumber, &load, &mut motion, 0.01, 1.0, 1, 1);
+        assert_eq!(motion.velocity, before);
+        assert_eq!(
+            (motion.rate, motion.trend),
+            (Twist::zero(0.0), Twist::zero(0.0))
+        );
+        advance::<false, _, _>(inertia, &Inviscid, &load, &mut motion, 0.01, 1.0, 1, 1);
+        assert_ne!(motion.velocity, before);
     }
 }

@@ -36,16 +36,36 @@ pub(crate) struct Blocks<T> {
 /// `v ×` as a matrix.
 #[inline(always)]
 pub(crate) fn skew<T: Scalar>(v: &Vector3<T>) -> Matrix3<T> {
-    let o = T::zero();
+    let o = v.x.lit(0.0);
     Matrix3::new(o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o)
 }
 
 impl<T: Scalar> Twist<T> {
+    /// Zero, of the kind that `scalar` is.
     #[inline(always)]
-    pub fn zero() -> Self {
+    pub fn zero(scalar: T) -> Self {
+        let zero = Vector3::repeat(scalar.lit(0.0));
         Self {
-            linear: Vector3::repeat(T::zero()),
-            angular: Vector3::repeat(T::zero()),
+            linear: zero,
+            angular: zero,
+        }
+    }
+
+    /// `self` in the lanes where `a < b`, `other` elsewhere.
+    #[inline(always)]
+    pub fn where_less(&self, a: T, b: T, other: &Self) -> Self {
+        Self {
+            linear: choose(&self.linear, a, b, &other.linear),
+            angular: choose(&self.angular, a, b, &other.angular),
+        }
+    }
+
+    /// `factor · self`
+    #[inline(always)]
+    pub fn scaled(&self, factor: T) -> Self {
+        Self {
+            linear: self.linear * factor,
+            angular: self.angular * factor,
         }
     }
 
@@ -91,7 +111,7 @@ pub(super) fn inverse3<T: Scalar>(m: &Matrix3<T>) -> Matrix3<T> {
     let (d, e, f) = (m.m21, m.m22, m.m23);
     let (g, h, i) = (m.m31, m.m32, m.m33);
     let (c11, c12, c13) = (e * i - f * h, f * g - d * i, d * h - e * g);
-    let per = T::one() / (a * c11 + b * c12 + c * c13);
+    let per = a.lit(1.0) / (a * c11 + b * c12 + c * c13);
     Matrix3::new(
         c11 * per,
         (c * h - b * i) * per,
@@ -138,6 +158,16 @@ pub(crate) fn cross<T: Scalar>(a: &Vector3<T>, b: &Vector3<T>) -> Vector3<T> {
         a.y * b.z - a.z * b.y,
         a.z * b.x - a.x * b.z,
         a.x * b.y - a.y * b.x,
+    )
+}
+
+/// `v` in the lanes where `a < b`, `other` elsewhere.
+#[inline(always)]
+pub(crate) fn choose<T: Scalar>(v: &Vector3<T>, a: T, b: T, other: &Vector3<T>) -> Vector3<T> {
+    Vector3::new(
+        v.x.where_less(a, b, other.x),
+        v.y.where_less(a, b, other.y),
+        v.z.where_less(a, b, other.z),
     )
 }
 
@@ -227,7 +257,7 @@ impl<T: Scalar> InertiaConstants<T> {
     /// Velocity of the planform's center.
     #[inline(always)]
     pub fn center_velocity(&self, v: &Twist<T>) -> Vector3<T> {
-        v.linear + v.angular.cross(&self.center())
+        v.linear + cross(&v.angular, &self.center())
     }
 
     /// N(ν): inertial coupling and viscous force as a matrix that acts on the velocity.
@@ -244,9 +274,10 @@ impl<T: Scalar> InertiaConstants<T> {
         // Of the body's own momentum m u, ω × is applied to u, so that no torque m u × u is left
         // where the frozen u and the new one differ; that of the fluid turns with both.
         let own = skew(&(v.angular * (self.dry_mass * self.per_length)));
-        let p = mass.m11 * v.linear - v.linear * self.dry_mass + mass.m12 * v.angular;
+        let p = transform(&mass.m11, &v.linear) - v.linear * self.dry_mass
+            + transform(&mass.m12, &v.angular);
         let p = p * self.munk;
-        let h = mass.m22 * v.angular + (mass.m21 * v.linear) * self.munk;
+        let h = transform(&mass.m22, &v.angular) + transform(&mass.m21, &v.linear) * self.munk;
         let p = skew(&(p * self.per_length));
         let h = skew(&(h * self.per_length));
 
@@ -264,9 +295,9 @@ impl<T: Scalar> InertiaConstants<T> {
         } else {
             (-lever, lever + arm)
         };
-        let n12 = g * lever_v;
-        let n21 = lever_t * g;
-        let mut n22 = n21 * lever_v + h;
+        let n12 = product(&g, &lever_v);
+        let n21 = product(&lever_t, &g);
+        let mut n22 = product(&n21, &lever_v) + h;
         for i in 0..3 {
             n22[(i, i)] -= terms.damping[i];
         }

@@ -69,7 +69,7 @@ impl<T: Scalar> InertiaConstants<T> {
         // Inverse of the first block, times its determinant.
         let dl = d.component_mul(&l);
         let (yz, zx, xy) = (d.y * d.z, d.z * d.x, d.x * d.y);
-        let per = T::one() / (d.x * yz + l.x * dl.x + l.y * dl.y + l.z * dl.z);
+        let per = h.lit(1.0) / (d.x * yz + l.x * dl.x + l.y * dl.y + l.z * dl.z);
         let (lxy, lyz, lzx) = (l.x * l.y, l.y * l.z, l.z * l.x);
         let inverse = Matrix3::new(
             (yz + l.x * l.x) * per,

@@ -1,52 +1,93 @@
-//! The scalars that the force laws and the integrator run on: `f64` for a free body, `f32` lanes
-//! for the bodies of a rapier world. One formula serves all of them.
+//! The scalars that the force laws and the integrator run on: `f64` for a free body, `f32`
+//! [`Lanes`](super::Lanes) for the bodies of a rapier world. One formula serves all of them.
+//!
+//! Lanes are made of registers that not every machine has. That this one has them is *proved* by a
+//! token of size zero, which only the detection at run time hands out and which every value carries
+//! on. Nothing can therefore be made of nothing: a constant is asked of a value, `x.lit(2.0)`, and is
+//! of its kind; and nalgebra's zeros and ones, which need no value, are out of reach, so that products
+//! of matrices are written out.
 
-use rapier3d::na::{SimdBool, SimdPartialOrd, SimdRealField, SimdValue};
-use simba::simd::WideF32x4;
-
-/// Number of bodies that the step advances at once.
-pub(crate) const LANES: usize = 4;
-
-/// [`LANES`] bodies side by side.
-pub(crate) type Lanes = WideF32x4;
+use rapier3d::na::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
+use std::fmt::Debug;
+use std::ops::Neg;
 
 /// A real number, or several side by side.
-pub trait Scalar: SimdRealField + Copy {
-    /// The same constant in every lane.
-    fn lit(value: f64) -> Self;
-    /// `e^self`; in lanes, arguments beyond ±87 count as ±87.
+///
+/// Sums, differences, products, quotients and roots are rounded correctly, `f32` and lanes have the
+/// same [`exponential`] and [`logarithm`]: a body's bits do not depend on how many are beside it.
+pub trait Scalar:
+    Copy
+    + Debug
+    + PartialEq
+    + 'static
+    + Neg<Output = Self>
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+{
+    /// A constant, of the kind that `self` is; in every lane.
+    fn lit(self, value: f64) -> Self;
+    /// `e^self`; but for f64, arguments beyond ±87 count as ±87.
     fn exponential(self) -> Self;
-    /// Natural logarithm; `self` must be positive.
+    /// Natural logarithm; `self` must be positive, finite and not subnormal.
     fn logarithm(self) -> Self;
     /// Whether no lane is below `limit` (or NaN).
     fn all_from(self, limit: f64) -> bool;
     /// `self` where it is larger than `other`, in each lane. What NaN gives is left open.
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        self.simd_max(other)
-    }
+    fn larger(self, other: Self) -> Self;
     /// `self` where it is smaller than `other`, in each lane. What NaN gives is left open.
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        self.simd_min(other)
-    }
+    fn smaller(self, other: Self) -> Self;
     /// `self` in the lanes where `a < b`, `other` elsewhere (also where `a` or `b` is NaN).
-    #[inline(always)]
-    fn where_less(self, a: Self, b: Self, other: Self) -> Self {
-        self.select(a.simd_lt(b), other)
-    }
+    fn where_less(self, a: Self, b: Self, other: Self) -> Self;
     /// Square root; `self` must not be negative.
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.simd_sqrt()
-    }
+    fn root(self) -> Self;
+    /// Absolute value.
+    fn absolute(self) -> Self;
+    /// The next whole number that is not less.
+    fn ceiling(self) -> Self;
+}
+
+/// Of f64 and f32: what the standard library has.
+macro_rules! standard {
+    ($type:ident) => {
+        #[inline(always)]
+        fn lit(self, value: f64) -> Self {
+            value as $type
+        }
+        #[inline(always)]
+        fn all_from(self, limit: f64) -> bool {
+            self >= limit as $type
+        }
+        #[inline(always)]
+        fn larger(self, other: Self) -> Self {
+            self.max(other)
+        }
+        #[inline(always)]
+        fn smaller(self, other: Self) -> Self {
+            self.min(other)
+        }
+        #[inline(always)]
+        fn where_less(self, a: Self, b: Self, other: Self) -> Self {
+            if a < b { self } else { other }
+        }
+        #[inline(always)]
+        fn root(self) -> Self {
+            self.sqrt()
+        }
+        #[inline(always)]
+        fn absolute(self) -> Self {
+            self.abs()
+        }
+        #[inline(always)]
+        fn ceiling(self) -> Self {
+            self.ceil()
+        }
+    };
 }
 
 impl Scalar for f64 {
-    #[inline(always)]
-    fn lit(value: f64) -> Self {
-        value
-    }
+    standard!(f64);
     #[inline(always)]
     fn exponential(self) -> Self {
         self.exp()
@@ -55,90 +96,96 @@ impl Scalar for f64 {
     fn logarithm(self) -> Self {
         self.ln()
     }
-    #[inline(always)]
-    fn all_from(self, limit: f64) -> bool {
-        self >= limit
-    }
 }
 
 impl Scalar for f32 {
-    #[inline(always)]
-    fn lit(value: f64) -> Self {
-        value as f32
-    }
-    // The same polynomials as the lanes use, so that a lane and a scalar give the same bits.
+    standard!(f32);
     #[inline(always)]
     fn exponential(self) -> Self {
-        exponential(wide::f32x4::splat(self)).to_array()[0]
+        exponential(self)
     }
     #[inline(always)]
     fn logarithm(self) -> Self {
-        wide::f32x4::splat(self).ln().to_array()[0]
-    }
-    #[inline(always)]
-    fn all_from(self, limit: f64) -> bool {
-        self >= limit as f32
+        logarithm(self)
     }
 }
 
-/// `e^x` for |x| ≤ 87, to 2 units in the last place, without the special cases that `wide` provides
-/// for: a third of its operations. `2^n e^r` with the polynomial of the Cephes library (Moshier
-/// 1989) for |r| ≤ ½ ln 2.
+/// Numbers of the format of f32, whose bits can be got at.
+pub(super) trait Binary32: Scalar {
+    /// `2^n`, where `shifted` is `n + 3·2²²`, −126 ≤ n ≤ 127.
+    fn power_of_two(shifted: Self) -> Self;
+    /// A positive x as `(m, 2²³ + 127 + n)`, where x = m 2ⁿ with ½√2 ≤ m < √2.
+    fn mantissa_and_exponent(self) -> (Self, Self);
+}
+
+/// Bits of 1 and of ½√2, and how many the mantissa has.
+pub(super) const ONE: u32 = 127 << MANTISSA;
+pub(super) const ROOT_HALF: u32 = std::f32::consts::FRAC_1_SQRT_2.to_bits();
+pub(super) const MANTISSA: u32 = 23;
+/// 2²³: the numbers from here on to 2²⁴ have their whole part in the lowest bits.
+pub(super) const WHOLE: u32 = (127 + MANTISSA) << MANTISSA;
+
+impl Binary32 for f32 {
+    fn power_of_two(shifted: Self) -> Self {
+        Self::from_bits((shifted.to_bits() << MANTISSA).wrapping_add(ONE))
+    }
+    fn mantissa_and_exponent(self) -> (Self, Self) {
+        let above = self.to_bits().wrapping_sub(ROOT_HALF);
+        let exponent = above.wrapping_add(ONE) >> MANTISSA;
+        let mantissa = self.to_bits().wrapping_sub(above & (!0 << MANTISSA));
+        (
+            Self::from_bits(mantissa),
+            Self::from_bits(exponent.wrapping_add(WHOLE)),
+        )
+    }
+}
+
+/// ln 2 in two parts, the first exact in a few bits.
+const LN_2: [f64; 2] = [0.693_359_375, -2.121_944_4e-4];
+
+/// `e^x` for |x| ≤ 87, to 2 units in the last place: `2^n e^r` with the polynomial of the Cephes
+/// library (Moshier 1989) for |r| ≤ ½ ln 2.
 #[inline(always)]
-fn exponential(x: wide::f32x4) -> wide::f32x4 {
-    use wide::{bytemuck, f32x4, i32x4};
-    let x = x.fast_max(f32x4::splat(-87.0)).fast_min(f32x4::splat(87.0));
-    let n = (x * f32x4::splat(std::f32::consts::LOG2_E)).fast_round_int();
-    let whole = f32x4::from_i32x4(n);
-    // ln 2 in two parts, the first exact in a few bits.
-    let r = x - whole * f32x4::splat(0.693_359_4) + whole * f32x4::splat(2.121_944_4e-4);
-    const P: [f32; 5] = [
+pub(super) fn exponential<T: Binary32>(x: T) -> T {
+    let x = x.larger(x.lit(-87.0)).smaller(x.lit(87.0));
+    // So large a sum has no room for a fraction: that rounds.
+    let shift = x.lit(12_582_912.0);
+    let shifted = x * x.lit(std::f64::consts::LOG2_E) + shift;
+    let n = shifted - shift;
+    let r = x - n * x.lit(LN_2[0]) - n * x.lit(LN_2[1]);
+    let mut p = x.lit(1.987_569_1e-4);
+    for coefficient in [
         1.398_199_9e-3,
         8.333_452e-3,
         4.166_579_6e-2,
         1.666_666_5e-1,
         0.5,
-    ];
-    let mut p = f32x4::splat(1.987_569_1e-4);
-    for coefficient in P {
-        p = p * r + f32x4::splat(coefficient);
+    ] {
+        p = p * r + x.lit(coefficient);
     }
-    let fraction = p * r * r + r + f32x4::splat(1.0);
-    let power: f32x4 = bytemuck::cast((n + i32x4::splat(127)) << 23);
-    fraction * power
+    let fraction = p * r * r + r + x.lit(1.0);
+    fraction * T::power_of_two(shifted)
 }
 
-impl Scalar for Lanes {
-    #[inline(always)]
-    fn lit(value: f64) -> Self {
-        Self::splat(value as f32)
+/// `ln x` for normal x > 0, to 3 units in the last place: `n ln 2 + 2 artanh((m−1)/(m+1))` with
+/// artanh as its series.
+#[inline(always)]
+pub(super) fn logarithm<T: Binary32>(x: T) -> T {
+    let (m, shifted) = x.mantissa_and_exponent();
+    let n = shifted - x.lit(8_388_608.0 + 127.0);
+    let one = x.lit(1.0);
+    let f = m - one;
+    let s = f / (m + one);
+    let s2 = s * s;
+    let mut p = x.lit(2.0 / 9.0);
+    for coefficient in [2.0 / 7.0, 2.0 / 5.0, 2.0 / 3.0] {
+        p = p * s2 + x.lit(coefficient);
     }
-    #[inline(always)]
-    fn exponential(self) -> Self {
-        Self(exponential(self.0))
-    }
-    #[inline(always)]
-    fn logarithm(self) -> Self {
-        Self(self.0.ln())
-    }
-    #[inline(always)]
-    fn all_from(self, limit: f64) -> bool {
-        self.simd_ge(Self::lit(limit)).all()
-    }
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        Self(self.0.fast_max(other.0))
-    }
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        Self(self.0.fast_min(other.0))
-    }
+    let small = p * s2 * s + n * x.lit(LN_2[1]);
+    (s + s) + small + n * x.lit(LN_2[0])
 }
 
-/// Defines a struct whose fields are all one scalar type, and how to convert it lane by lane.
-///
-/// `Name<T>::from_f64(&Name<f64>)` rounds or broadcasts; `Name::gather([&Name<Lanes>; LANES])` puts
-/// bodies side by side whose constants differ.
+/// Defines a struct whose fields are all one scalar type: computed in f64, kept in f32, used in lanes.
 macro_rules! scalar_struct {
     ($(#[$meta:meta])* $vis:vis struct $name:ident { $($(#[$field_meta:meta])* $field:ident,)+ }) => {
         $(#[$meta])*
@@ -148,19 +195,24 @@ macro_rules! scalar_struct {
             $($(#[$field_meta])* pub(crate) $field: T,)+
         }
 
-        impl<T: $crate::math::Scalar> $name<T> {
-            /// Rounds (f32) or broadcasts (lanes) constants that were computed in f64.
-            pub(crate) fn from_f64(constants: &$name<f64>) -> Self {
-                Self { $($field: T::lit(constants.$field),)+ }
+        impl $name<f32> {
+            /// The nearest constants in f32.
+            pub(crate) fn rounded(constants: &$name<f64>) -> Self {
+                Self { $($field: constants.$field as f32,)+ }
             }
         }
 
-        impl $name<$crate::math::Lanes> {
-            /// Four bodies side by side; of each, all lanes are the same.
+        impl<S: fearless_simd::Simd> $name<$crate::math::Lanes<S>> {
+            /// The same constants in every lane.
             #[inline(always)]
-            pub(crate) fn gather(bodies: [&$name<$crate::math::Lanes>; $crate::math::LANES]) -> Self {
-                use rapier3d::na::SimdValue;
-                Self { $($field: $crate::math::Lanes::from(bodies.map(|b| b.$field.extract(0))),)+ }
+            pub(crate) fn splat(simd: S, constants: &$name<f32>) -> Self {
+                Self { $($field: $crate::math::Lanes::splat(simd, constants.$field),)+ }
+            }
+
+            /// The constants of one body in each lane.
+            #[inline(always)]
+            pub(crate) fn gather<'a>(simd: S, of: impl Fn(usize) -> &'a $name<f32>) -> Self {
+                Self { $($field: $crate::math::Lanes::from_fn(simd, |lane| of(lane).$field),)+ }
             }
         }
     };
@@ -171,20 +223,20 @@ pub(crate) use scalar_struct;
 mod tests {
     use super::*;
 
-    /// The polynomials are good to a few units in the last place over the range the laws use.
+    /// The polynomials are good to a few units in the last place (6e-8) over the range the laws use.
     #[test]
-    fn exp_and_ln_in_lanes() {
-        for i in -40..=40 {
+    fn exponential_and_logarithm() {
+        for i in -160..=160 {
             let x = i as f32 * 0.5;
             let exact = f64::from(x).exp();
             assert!(
-                (f64::from(x.exponential()) / exact - 1.0).abs() < 5e-7,
+                (f64::from(x.exponential()) / exact - 1.0).abs() < 2e-7,
                 "exp {x}"
             );
             let y = exact as f32;
             let ln = f64::from(y).ln();
             assert!(
-                (f64::from(y.logarithm()) - ln).abs() < 1e-6 * ln.abs().max(1.0),
+                (f64::from(y.logarithm()) - ln).abs() <= 2e-7 * ln.abs(),
                 "ln {y}"
             );
         }

@@ -97,16 +97,19 @@ pub(crate) struct ViscousTerms<T> {
 }
 
 impl<T: Scalar> ViscousTerms<T> {
-    /// No force at all.
-    pub fn none() -> Self {
+    /// No force at all, in the kind of numbers that `scalar` is of.
+    #[inline(always)]
+    pub fn none(scalar: T) -> Self {
+        let drag = scalar.lit(0.0);
+        let zero = Vector3::repeat(drag);
         Self {
-            drag: T::zero(),
-            creeping: Vector3::repeat(T::zero()),
-            translational_lift: Vector3::repeat(T::zero()),
-            rotational_lift: Vector3::repeat(T::zero()),
-            arm: Vector3::repeat(T::zero()),
+            drag,
+            creeping: zero,
+            translational_lift: zero,
+            rotational_lift: zero,
+            arm: zero,
             arm_moves: true,
-            damping: Vector3::repeat(T::zero()),
+            damping: zero,
         }
     }
 
@@ -122,7 +125,9 @@ impl<T: Scalar> ViscousTerms<T> {
 /// A law whose per-body constants have been prepared.
 pub(crate) trait Evaluate<T: Scalar> {
     /// Evaluations per substep that the law needs at least.
-    const LEAST_ITERATIONS: u32 = 1;
+    fn least_iterations(&self) -> u32 {
+        1
+    }
 
     /// The terms at a velocity `u` of the planform's center and an angular velocity `w` (in units
     /// of speed: times the length scale), both relative to the fluid, in plate axes.
@@ -132,7 +137,7 @@ pub(crate) trait Evaluate<T: Scalar> {
 /// `e / max(e, tiny)`-safe inverse: `1/x` with `x` kept away from zero.
 #[inline(always)]
 pub(crate) fn safe_inverse<T: Scalar>(x: T) -> T {
-    T::one() / x.larger(T::lit(1e-12))
+    x.lit(1.0) / x.larger(x.lit(1e-12))
 }
 
 /// Torque arm of the thesis' laws: `(1 − sin³α)·a/2` along the in-plane velocity (thesis, text
@@ -141,8 +146,8 @@ pub(crate) fn safe_inverse<T: Scalar>(x: T) -> T {
 pub(crate) fn thesis_arm<T: Scalar>(u: &Vector3<T>, semi_axis: T) -> Vector3<T> {
     let tangential = (u.x * u.x + u.y * u.y).root();
     let speed = (u.x * u.x + u.y * u.y + u.z * u.z).root();
-    let sine = u.z.simd_abs() * safe_inverse(speed);
-    let length = (T::one() - sine * sine * sine) * semi_axis * T::lit(0.5);
+    let sine = u.z.absolute() * safe_inverse(speed);
+    let length = (sine.lit(1.0) - sine * sine * sine) * semi_axis * sine.lit(0.5);
     let per_speed = length * safe_inverse(tangential);
-    Vector3::new(u.x * per_speed, u.y * per_speed, T::zero())
+    Vector3::new(u.x * per_speed, u.y * per_speed, u.z.lit(0.0))
 }

@@ -331,23 +331,24 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
 impl<T: Scalar> PhysicalConstants<T> {
     #[inline(always)]
     fn evaluate<const BLUFF: bool>(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
-        let one = T::one();
+        let lit = |value| u.x.lit(value);
+        let (zero, one) = (lit(0.0), lit(1.0));
         let tangential2 = u.x * u.x + u.y * u.y;
         let speed = (tangential2 + u.z * u.z).root();
         let per_speed = safe_inverse(speed);
 
         // Span across the motion, and the chord through the center along it: an ellipse's product
         // of the two is the same in every direction. For motion along n any direction will do.
-        let tiny = T::lit(1e-12);
+        let tiny = lit(1e-12);
         let (ux2, uy2) = (u.x * u.x + tiny, u.y * u.y + tiny);
-        let span2 = T::lit(4.0) * (self.extent_x2 * uy2 + self.extent_y2 * ux2) / (ux2 + uy2);
-        let chord = T::lit(4.0) * self.extent_product / span2.root();
+        let span2 = lit(4.0) * (self.extent_x2 * uy2 + self.extent_y2 * ux2) / (ux2 + uy2);
+        let chord = lit(4.0) * self.extent_product / span2.root();
         let aspect = span2 / self.area;
-        let re = (speed * chord * self.reynolds_scale).larger(T::lit(1e-3));
+        let re = (speed * chord * self.reynolds_scale).larger(lit(1e-3));
 
         // Pressure point and its velocity.
         let travel = self.pressure_travel * chord * per_speed;
-        let arm = Vector3::new(travel * u.x, travel * u.y, T::zero());
+        let arm = Vector3::new(travel * u.x, travel * u.y, zero);
         let vz = u.z + w.x * arm.y - w.y * arm.x;
         let v_speed = (tangential2 + vz * vz).root();
         let per_v = safe_inverse(v_speed);
@@ -357,10 +358,10 @@ impl<T: Scalar> PhysicalConstants<T> {
         // Drag of the plate. Its creeping part is the linear resistance; what is left broadside is
         // the larger of the disc's mid range and its plateau.
         let mid = if re.all_from(MID_ENDS) {
-            T::zero()
+            zero
         } else {
-            let power = (re.logarithm() * T::lit(DISC_MID.1)).exponential();
-            (self.broadside_mid * power).where_less(re, T::lit(MID_ENDS), T::zero())
+            let power = (re.logarithm() * lit(DISC_MID.1)).exponential();
+            (self.broadside_mid * power).where_less(re, lit(MID_ENDS), zero)
         };
         let creeping_share = self.creeping_z * per_speed / self.dynamic_area;
         let broadside = mid.larger(self.broadside_plateau - creeping_share);
@@ -374,11 +375,10 @@ impl<T: Scalar> PhysicalConstants<T> {
                 + self.shadow_z2 * u.z * u.z)
                 .root();
             let log_re = (speed * self.bluff_reynolds_scale)
-                .larger(T::lit(1e-3))
+                .larger(lit(1e-3))
                 .logarithm();
-            let bluff = T::lit(3.6) * (log_re * T::lit(-0.313)).exponential()
-                + self.bluff_plateau
-                    / (one + T::lit(42500.0) * (log_re * T::lit(-1.16)).exponential());
+            let bluff = lit(3.6) * (log_re * lit(-0.313)).exponential()
+                + self.bluff_plateau / (one + lit(42500.0) * (log_re * lit(-1.16)).exponential());
             self.plate_share * plate + shadow_speed * bluff
         } else {
             plate
@@ -388,7 +388,7 @@ impl<T: Scalar> PhysicalConstants<T> {
         let onset = self.lift_onset / re;
         let onset2 = onset * onset;
         let wake = one / (one + onset2 * onset2 * onset2 * onset);
-        let stall = one + (self.stall_rate * (sine.simd_abs() - self.stall_sine)).exponential();
+        let stall = one + (self.stall_rate * (sine.absolute() - self.stall_sine)).exponential();
         let attached = one / stall;
         let lift = attached * self.attached_lift * aspect / (aspect + self.attached_aspect)
             + (one - attached) * self.stalled_lift * aspect / (aspect + self.stalled_aspect);
@@ -403,12 +403,12 @@ impl<T: Scalar> PhysicalConstants<T> {
         let onset = self.damping_onset / (re * re + one).root();
         let by_speed = speed * (one + onset * onset.root());
         let spin = (w.x * w.x + w.y * w.y).root();
-        let spin_z = w.z.simd_abs();
+        let spin_z = w.z.absolute();
         let friction = self.spin_friction * (speed + chord * spin_z);
         ViscousTerms {
             drag,
             creeping: Vector3::new(self.creeping_x, self.creeping_y, self.creeping_z),
-            translational_lift: Vector3::new(-u.y, u.x, T::zero()) * translational,
+            translational_lift: Vector3::new(-u.y, u.x, zero) * translational,
             rotational_lift: if BLUFF {
                 Vector3::new(
                     (rotational + self.magnus) * w.x,
@@ -416,7 +416,7 @@ impl<T: Scalar> PhysicalConstants<T> {
                     self.magnus * w.z,
                 )
             } else {
-                Vector3::new(rotational * w.x, rotational * w.y, T::zero())
+                Vector3::new(rotational * w.x, rotational * w.y, zero)
             },
             arm,
             arm_moves: true,

@@ -12,7 +12,10 @@ pub(crate) struct Scaled<'a, T, L> {
 }
 
 impl<T: Scalar, L: Evaluate<T>> Evaluate<T> for Scaled<'_, T, L> {
-    const LEAST_ITERATIONS: u32 = L::LEAST_ITERATIONS;
+    #[inline(always)]
+    fn least_iterations(&self) -> u32 {
+        self.law.least_iterations()
+    }
 
     #[inline(always)]
     fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {

@@ -86,14 +86,14 @@ impl<T: Scalar> Evaluate<T> for StochasticConstants<T> {
         let pressure = self.dynamic_area * speed;
         // −U × (N × U) = (N × U) × U, and |N × U| is the tangential speed. N is ±z; the sign of
         // u_z passes smoothly through zero.
-        let windward = u.z * safe_inverse(u.z.simd_abs() + T::lit(1e-3) * speed);
+        let windward = u.z * safe_inverse(u.z.absolute() + speed.lit(1e-3) * speed);
         let turn = pressure * self.lift * windward * safe_inverse(tangential);
         ViscousTerms {
             drag: pressure * self.drag,
-            translational_lift: Vector3::new(-u.y * turn, u.x * turn, T::zero()),
+            translational_lift: Vector3::new(-u.y * turn, u.x * turn, speed.lit(0.0)),
             arm: thesis_arm(u, self.arm),
             arm_moves: false,
-            ..ViscousTerms::none()
+            ..ViscousTerms::none(speed)
         }
     }
 }

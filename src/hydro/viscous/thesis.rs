@@ -4,6 +4,7 @@ use super::{
     Evaluate, PhysicalLaw, ViscousTerms, physical::PhysicalConstants, safe_inverse, thesis_arm,
 };
 use crate::Error;
+use crate::dynamics::kirchhoff::cross;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::math::{Scalar, scalar_struct};
@@ -175,10 +176,10 @@ impl<T: Scalar> Evaluate<T> for ThesisConstants<T> {
         let speed = speed2.root();
         let per_speed2 = safe_inverse(speed2);
         let sine2 = u.z * u.z * per_speed2;
-        let sine_double = T::lit(2.0) * u.z.simd_abs() * tangential2.root() * per_speed2;
+        let sine_double = speed.lit(2.0) * u.z.absolute() * tangential2.root() * per_speed2;
         let cosine_double = (tangential2 - u.z * u.z) * per_speed2;
 
-        let turning = w.cross(u);
+        let turning = cross(w, u);
         let size = (turning.x * turning.x + turning.y * turning.y + turning.z * turning.z).root();
         let per_turning = safe_inverse(size + self.regularisation * speed2);
         // ê2 = (ω × u)/|…| and ê3 = ((ω × u) × u)/|…| are W × u with W along ω and ω × u.
@@ -188,10 +189,10 @@ impl<T: Scalar> Evaluate<T> for ThesisConstants<T> {
             self.dynamic_area * speed * self.translational_lift * cosine_double * per_turning;
 
         let spin = (w.x * w.x + w.y * w.y).root();
-        let spin_z = w.z.simd_abs();
+        let spin_z = w.z.absolute();
         ViscousTerms {
             drag: self.dynamic_area * speed * self.drag * sine2,
-            creeping: Vector3::repeat(T::zero()),
+            creeping: Vector3::repeat(speed.lit(0.0)),
             translational_lift: turning * translational,
             rotational_lift: w * rotational,
             arm: thesis_arm(u, self.major),
