@@ -4,13 +4,16 @@ use crate::support::Vec3;
 use crate::support::mesh::{RawMesh, aligned, load};
 use rand::{RngExt, SeedableRng};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 const CUBE_OBJ: &str = "o cube\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\n\
     f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
-/// A file of its own for each test.
+/// A file of its own for each call: tests run side by side.
 fn file(name: &str, content: &[u8]) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("meshes");
+    static CALLS: AtomicU32 = AtomicU32::new(0);
+    let call = CALLS.fetch_add(1, Ordering::Relaxed);
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("meshes_{call}"));
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join(name);
     std::fs::write(&path, content).unwrap();
