@@ -5,6 +5,7 @@ pub mod classify;
 pub mod codebook;
 pub mod graph;
 pub mod numbers;
+pub mod path;
 pub mod pattern;
 pub mod phase_diagram;
 pub mod trajectory;
