@@ -1,6 +1,7 @@
 //! The bridge to rapier: the only place that reads and writes its bodies.
 
 mod contact;
+mod emitter;
 mod flight;
 mod from_rapier;
 mod handover;
@@ -8,12 +9,15 @@ mod immersion;
 mod kind;
 mod original;
 mod playback;
+mod player;
 pub mod preset;
 mod readout;
 mod sketch;
 mod step;
 
+pub use emitter::{Emitter, EmitterParams};
 pub use immersion::{Immersion, Warning};
 pub use playback::OnContact;
+pub use player::{AtContact, Drive, MotionPlayer, MotionPlayers, Playing};
 pub use sketch::{FollowParams, Followed, Sketch};
 pub use step::RapierSets;
