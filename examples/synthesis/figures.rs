@@ -267,12 +267,11 @@ pub fn bodies(
         };
         let synthesizer = leaf.synthesizer(params, database)?;
         let mut panel = Panel::new(
-            format!("leaf in wind of {speed} m/s, four falls (3.17)"),
+            format!("leaf in wind of {speed} m/s, eight falls (3.17)"),
             "x, m",
             "y, m",
         );
-        panel = panel.equal();
-        for fall in 0..4 {
+        for fall in 0..8 {
             let path = synthesizer.path(seed + fall).in_wind(
                 &wind,
                 Vector::Y * 2.0,
@@ -282,7 +281,7 @@ pub fn bodies(
             )?;
             panel
                 .items
-                .extend(trace(&path, 3.0 * leaf.numbers.length, 0.15));
+                .extend(trace(&path, leaf.numbers.length, Real::INFINITY));
         }
         panels.push(panel);
     }

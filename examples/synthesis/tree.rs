@@ -103,8 +103,8 @@ pub fn draw(
         "y, m",
     )
     .equal();
-    panel.window = Some([(-1.6, 1.6), (-0.1, 2.2)]);
-    let ground = vec![(-1.6, 0.0), (1.6, 0.0)];
+    panel.window = Some([(-2.0, 2.0), (-0.1, 2.2)]);
+    let ground = vec![(-2.0, 0.0), (2.0, 0.0)];
     panel.items.push(Item::Line(ground, GROUND, 4));
     for [[ax, ay], [bx, by]] in TWIGS.into_iter().chain([[[0.0, 0.0], [0.0, 1.7]]]) {
         let ends = [(ax, ay), (bx, by)].map(|(x, y)| (f64::from(x), f64::from(y)));
@@ -128,7 +128,7 @@ pub fn draw(
     panel.items.push(Item::Dots(rest, RGBColor(60, 120, 40), 3));
     let path = out.join("synthesis_tree.svg");
     let title = "Leaves from a tree, with collisions (thesis Fig. 3.18)";
-    draw::write(&path, title, &[panel], 1, (900, 680))?;
+    draw::write(&path, title, &[panel], 1, (1080, 680))?;
     Ok(json!({
         "leaves": leaves,
         "met_something_in_the_air": met.iter().filter(|m| **m).count(),

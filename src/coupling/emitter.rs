@@ -28,7 +28,7 @@ pub struct EmitterParams {
     pub played: Real,
     /// How long a body stays, s. Default 60.
     pub lifetime: Real,
-    /// How players follow their path. Default a compliance of 0.1 s.
+    /// How players follow their path; kinematic ones are never immersed. Default a compliance of 0.1 s.
     pub drive: Drive,
     /// What a contact does to them. Default: the force model takes over.
     pub at_contact: AtContact,

@@ -4,7 +4,7 @@ use super::immersion::Immersion;
 use super::step::RapierSets;
 use crate::Error;
 use crate::flow::{Flow, FlowSample};
-use crate::motion::path::{Key, MotionPath, WindResponse};
+use crate::motion::path::{MotionPath, WindResponse};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodyType};
 use rapier3d::geometry::NarrowPhase;
 use rapier3d::math::{Pose, Real, Rotation, Vector};
@@ -147,6 +147,8 @@ struct Slot {
     taken: bool,
     /// Velocity taken from the wind, m/s.
     blown: Vector,
+    /// The path at `clock`, turned: position from the origin, and attitude of the body's frame.
+    now: (Vector, Rotation),
 }
 
 impl MotionPlayers {
@@ -175,11 +177,13 @@ impl MotionPlayers {
     /// Those of [`MotionPlayer::check`].
     pub fn play(&mut self, handle: RigidBodyHandle, player: &MotionPlayer) -> Result<(), Error> {
         player.check()?;
+        let release = player.release(Vector::ZERO);
         let slot = Slot {
             handle,
             path: player.path.clone(),
             origin: player.origin,
             turn: Rotation::from_axis_angle(Vector::Y, player.heading),
+            now: (release.translation - player.origin, release.rotation),
             to_plate: player.axes.inverse(),
             drive: player.drive,
             at_contact: player.at_contact,
@@ -312,8 +316,9 @@ impl Slot {
             Drive::Kinematic if body.body_type() == RigidBodyType::KinematicPositionBased => {
                 self.taken = true;
                 let lean = self.blow(wind, step);
-                self.clock += step.dt;
-                let (com, rotation, _) = self.place(self.clock, lean);
+                self.proceed(step.dt);
+                let rotation = leaning(lean, self.now.1);
+                let com = self.origin + self.now.0;
                 let origin = com - rotation * body.local_center_of_mass();
                 body.set_next_kinematic_position(Pose::from_parts(origin, rotation));
                 let done = self.clock >= self.path.duration();
@@ -360,27 +365,24 @@ impl Slot {
             _ => {}
         }
         self.taken = true;
-        let origin = self.origin;
-        let lean = self.blow(wind, step);
-        let (mut from, turned, _) = self.place(self.clock, lean);
         // Where the path was before this step's wind: the wind's displacement is not an error.
-        from -= self.origin - origin;
-        self.clock += dt;
-        let (to, rotation, _) = self.place(self.clock, lean);
-        // Shares of an error that are worked off in this step: position and attitude, and velocity.
-        let worked = |time: Real| {
-            if compliance > 0.0 {
-                1.0 - (-time / compliance).exp()
-            } else {
-                1.0
-            }
-        };
-        let k = worked(dt);
-        let linear = (to - from + (from - com) * k) / dt - step.sag;
+        let from = self.origin + self.now.0;
+        let lean = self.blow(wind, step);
+        let turned = leaning(lean, self.now.1);
+        let before = self.now.0;
+        self.proceed(dt);
+        let mut moved = self.now.0 - before;
+        if lean.is_some() {
+            moved += self.blown * dt;
+        }
+        let rotation = leaning(lean, self.now.1);
+        // Share of an error that is worked off in this step (implicit Euler).
+        let k = dt / (dt + compliance);
+        let linear = (moved + (from - com) * k) / dt - step.sag;
         let away = turned * body.rotation().inverse();
         let angular = (vector(rotation * turned.inverse()) + vector(away) * k) / dt;
         let (linear, angular) = if self.free < 8.0 * compliance {
-            let s = worked(self.free);
+            let s = 1.0 - (-self.free / compliance).exp();
             (
                 body.linvel() + (linear - body.linvel()) * s,
                 body.angvel() + (angular - body.angvel()) * s,
@@ -403,20 +405,27 @@ impl Slot {
         Some(response.lean(self.blown))
     }
 
-    /// Center of mass, rotation of the body, and key of the path at a time.
+    /// Moves on along the path.
     #[inline]
-    fn place(&self, time: Real, lean: Option<Rotation>) -> (Vector, Rotation, Key) {
-        let key = self.path.at(time);
-        let turned = self.turn * key.attitude * self.to_plate;
-        let rotation = lean.map_or(turned, |lean| lean * turned);
-        let com = self.origin + self.turn * key.position;
-        (com, rotation.normalize(), key)
+    fn proceed(&mut self, dt: Real) {
+        self.clock += dt;
+        let key = self.path.at(self.clock);
+        self.now = (
+            self.turn * key.position,
+            self.turn * key.attitude * self.to_plate,
+        );
     }
 
     /// Lets the path go through a point at the present time.
     fn anchor(&mut self, com: Vector) {
-        self.origin = com - self.turn * self.path.at(self.clock).position;
+        self.origin = com - self.now.0;
     }
+}
+
+/// A rotation in the wind.
+#[inline]
+fn leaning(lean: Option<Rotation>, rotation: Rotation) -> Rotation {
+    lean.map_or(rotation, |lean| lean * rotation)
 }
 
 /// Whether a body touches another.
