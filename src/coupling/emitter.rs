@@ -2,7 +2,8 @@
 //! § 7.3: snow, dust, confetti).
 
 use super::immersion::Immersion;
-use super::player::{AtContact, Drive, MotionPlayer, MotionPlayers};
+use super::player::{AtContact, Drive, MotionPlayer};
+use super::players::MotionPlayers;
 use crate::Error;
 use crate::body::ImmersedBody;
 use crate::motion::path::MotionPath;

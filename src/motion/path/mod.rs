@@ -13,6 +13,7 @@ mod bake;
 pub mod chain;
 pub mod curve;
 pub mod database;
+mod drift;
 mod piece;
 pub mod search_tree;
 pub mod segment;
