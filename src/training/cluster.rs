@@ -1,6 +1,7 @@
 //! The thesis's classification: k-means over (d, e), labels by rule (§ 5.4.2).
 
 use super::sweep::Sample;
+#[cfg(feature = "bake")]
 use crate::Error;
 use crate::motion::Pattern;
 
