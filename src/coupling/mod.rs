@@ -1,6 +1,7 @@
 //! The bridge to rapier: the only place that reads and writes its bodies.
 
 mod contact;
+mod emitter;
 mod flight;
 mod follow;
 mod from_rapier;
@@ -9,13 +10,18 @@ mod immersion;
 mod kind;
 mod original;
 mod playback;
+mod player;
+mod players;
 pub mod preset;
 mod readout;
 mod step;
 mod stream;
 mod wing;
 
+pub use emitter::{Emitter, EmitterParams};
 pub use follow::{FollowParams, Followed};
 pub use immersion::{Immersion, Warning};
 pub use playback::OnContact;
+pub use player::{AtContact, Drive, MotionPlayer};
+pub use players::{MotionPlayers, Playing};
 pub use step::RapierSets;

@@ -1,10 +1,11 @@
 //! Motion patterns: their names, how to tell them apart, and how they follow each other (thesis
-//! chapters 3 and 5).
+//! chapters 3 and 5). [`path`] puts falls together from segments.
 
 pub mod classify;
 pub mod codebook;
 pub mod graph;
 pub mod numbers;
+pub mod path;
 pub mod pattern;
 pub mod phase_diagram;
 pub mod sketch;

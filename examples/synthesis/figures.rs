@@ -1,0 +1,301 @@
+//! Figs. 3.4–3.6, 3.1 and 3.8, 3.15–3.17.
+
+use super::Body;
+use super::draw::{self, Item, Panel, Point};
+use plotters::prelude::RGBColor;
+use rapier3d_immersed::flow::{SpectralWind, WindParams};
+use rapier3d_immersed::motion::path::{
+    Deviation, Fall, Glide, MotionPath, SynthesisParams, TanabeKaneko, TrajectoryDatabase,
+    WindResponse,
+};
+use rapier3d_immersed::motion::{PhaseDiagram, Regime};
+use rapier3d_immersed::rapier3d::math::{Real, Vector};
+use std::error::Error;
+use std::path::Path;
+use std::sync::Arc;
+
+const GREY: RGBColor = RGBColor(150, 150, 150);
+const INK: RGBColor = RGBColor(40, 40, 40);
+
+pub fn color(regime: Regime) -> RGBColor {
+    match regime {
+        Regime::SteadyDescent => RGBColor(211, 47, 47),
+        Regime::PeriodicFlutter => RGBColor(46, 140, 60),
+        Regime::TransitionalChaotic => RGBColor(30, 90, 200),
+        Regime::PeriodicTumbling => RGBColor(190, 40, 170),
+        Regime::TransitionalHelix => RGBColor(230, 130, 20),
+        Regime::PeriodicSpiral => RGBColor(0, 150, 160),
+    }
+}
+
+/// Seen from the side, z a little toward the viewer.
+fn side(v: Vector) -> Point {
+    let [x, y, z] = v.to_array().map(f64::from);
+    (x + 0.35 * z, y - 0.2 * z)
+}
+
+/// A path in the colours of its regimes, with the body's chord drawn every `every` seconds.
+fn trace(path: &MotionPath, chord: f64, every: Real) -> Vec<Item> {
+    let mut items = Vec::new();
+    for (i, (from, regime)) in path.regimes().iter().enumerate() {
+        let to = path.regimes().get(i + 1).map_or(path.duration(), |r| r.0);
+        let steps = 400;
+        let line = (0..=steps).map(|s| {
+            side(
+                path.at(from + (to - from) * s as Real / steps as Real)
+                    .position,
+            )
+        });
+        items.push(Item::Line(line.collect(), color(*regime), 1));
+    }
+    let mut time = 0.0;
+    while time <= path.duration() {
+        let key = path.at(time);
+        let half = key.attitude * Vector::Y * (0.5 * chord as Real);
+        let ends = [key.position - half, key.position + half].map(side);
+        items.push(Item::Line(ends.to_vec(), INK, 2));
+        time += every;
+    }
+    items
+}
+
+/// Figs. 3.4–3.6: solutions of (3.4), segments and their classes, a flutter with its orientation.
+pub fn database(out: &Path, database: &TrajectoryDatabase) -> Result<(), Box<dyn Error>> {
+    let mut panels = Vec::new();
+    for (across, along, share) in [(4.1, 0.9, 0.14), (4.6, 0.9, 0.05), (4.6, 0.15, 0.14)] {
+        let model = TanabeKaneko {
+            across,
+            along,
+            fluid_share: share,
+            ..TanabeKaneko::default()
+        };
+        let states = model.solve(0.3, 4e-3, 5000);
+        let fall = Fall::of(&states);
+        let mut panel = Panel::bare(format!("A⊥ {across}, A∥ {along}, ρL/m {share}: {fall:?}"));
+        let shown = &states[..2200];
+        let line = shown.iter().map(|s| (s[0], s[1]));
+        panel.items.push(Item::Line(line.collect(), GREY, 1));
+        for state in shown.iter().step_by(40) {
+            let (sin, cos) = state[2].sin_cos();
+            let ends = [-0.5, 0.5].map(|h| (state[0] + h * cos, state[1] + h * sin));
+            panel.items.push(Item::Line(ends.to_vec(), INK, 2));
+        }
+        panels.push(panel);
+    }
+    let mut segments = Panel::new("segments by class (3.6)", "x / L", "y / L");
+    segments.window = Some([(-4.0, 4.0), (-8.0, 0.5)]);
+    let mut classes = Panel::new("feature vectors, 12 classes", "x / L", "descent / L");
+    classes.window = Some([(-4.0, 4.0), (0.0, 16.0)]);
+    for (index, entry) in database.entries().iter().enumerate() {
+        let hue = f64::from(entry.class) * 2.399;
+        let part = |shift: f64| (127.0 + 110.0 * (hue + shift).cos()) as u8;
+        let color = RGBColor(part(0.0), part(2.1), part(4.2));
+        let feature = entry.segment.feature();
+        if feature.x.abs() < 4.0 && -feature.y < 16.0 {
+            let dot = vec![(feature.x, -feature.y)];
+            classes.items.push(Item::Dots(dot, color, 3));
+        }
+        if index % 13 == 0 && feature.x.abs() < 4.0 && feature.y > -8.0 {
+            let time = entry.segment.duration();
+            let line = (0..=30).map(|i| {
+                let p = entry.segment.position(time * f64::from(i) / 30.0);
+                (p.x, p.y)
+            });
+            segments.items.push(Item::Line(line.collect(), color, 1));
+        }
+    }
+    let mut oriented = Panel::bare("a flutter with orientations from (3.4)");
+    let entry = database
+        .entries()
+        .iter()
+        .filter(|e| e.segment.glide == Glide::Right)
+        .min_by(|a, b| {
+            let score = |f: f64, h: f64| (f.ln().powi(2) + (h / 1.4).ln().powi(2)).abs();
+            let of = |e: &&rapier3d_immersed::motion::path::Entry| {
+                score(e.segment.flutter.frequency, e.segment.flutter.horizontal)
+            };
+            of(a).total_cmp(&of(b))
+        });
+    if let Some(entry) = entry {
+        let curve = &database.flutter()[entry.flutter as usize];
+        let mut start = (0.0, 0.0);
+        for level in 0..5 {
+            let sign = if level % 2 == 0 { 1.0 } else { -1.0 };
+            for i in 0..=12 {
+                let share = f64::from(i) / 12.0;
+                let p = entry.segment.position(share * entry.segment.duration());
+                let (x, y) = (start.0 + sign * p.x, start.1 + p.y);
+                let (sin, cos) = (sign * curve.at(share)).sin_cos();
+                let ends = [-0.5, 0.5].map(|h| (x + h * cos, y + h * sin));
+                oriented.items.push(Item::Line(ends.to_vec(), INK, 2));
+            }
+            let line = (0..=40).map(|i| {
+                let p = entry
+                    .segment
+                    .position(f64::from(i) / 40.0 * entry.segment.duration());
+                (start.0 + sign * p.x, start.1 + p.y)
+            });
+            let line = Item::Line(line.collect(), RGBColor(211, 47, 47), 1);
+            oriented.items.push(line);
+            let feature = entry.segment.feature();
+            start = (start.0 + sign * feature.x, start.1 + feature.y);
+        }
+    }
+    panels.extend([segments, classes, oriented]);
+    let title = "Trajectory database (thesis Figs. 3.4–3.6)";
+    let path = out.join("synthesis_database.svg");
+    draw::write(&path, title, &panels, 3, (420, 420))
+}
+
+/// Figs. 3.1 and 3.8: the six regimes from the side and from above.
+pub fn patterns(
+    out: &Path,
+    leaf: &Body,
+    database: &Arc<TrajectoryDatabase>,
+    seed: u64,
+) -> Result<(), Box<dyn Error>> {
+    let synthesizer = leaf.synthesizer(
+        SynthesisParams {
+            main: Some(Regime::PeriodicSpiral),
+            ..SynthesisParams::default()
+        },
+        database,
+    )?;
+    let (mut sides, mut tops) = (Vec::new(), Vec::new());
+    for regime in Regime::ALL {
+        let path = synthesizer.path_through(&[regime], seed)?;
+        let mut panel = Panel::bare(format!("{} {regime}", regime.abbreviation()));
+        panel.items = trace(&path, leaf.numbers.length, 0.035);
+        sides.push(panel);
+        let mut top = Panel::bare(format!(
+            "{} from above, drift taken out",
+            regime.abbreviation()
+        ));
+        top.window = Some([(-0.15, 0.15), (-0.15, 0.15)]);
+        // The drift over whole turns of spiral and helix (at a third of U/a), or over the whole fall.
+        let count = match regime {
+            Regime::TransitionalHelix | Regime::PeriodicSpiral => {
+                let turn = std::f64::consts::TAU * 3.0 * leaf.numbers.length / leaf.numbers.u0;
+                (turn / f64::from(path.interval())).round() as usize
+            }
+            _ => path.keys().len() - 1,
+        };
+        let keys = &path.keys()[path.keys().len() - 1 - count..];
+        let [first, last] = [keys[0].position, keys[count].position];
+        let line = keys.iter().enumerate().map(|(i, key)| {
+            let p = key.position - first - (last - first) * (i as Real / count as Real);
+            (f64::from(p.x), f64::from(p.z))
+        });
+        top.items.push(Item::Line(line.collect(), color(regime), 1));
+        tops.push(top);
+    }
+    sides.extend(tops);
+    let title = "A leaf in each regime (thesis Figs. 3.1 and 3.8)";
+    let path = out.join("synthesis_patterns.svg");
+    draw::write(&path, title, &sides, 6, (270, 420))
+}
+
+/// Figs. 3.15–3.17.
+pub fn bodies(
+    out: &Path,
+    bodies: &[Body; 3],
+    database: &Arc<TrajectoryDatabase>,
+    seed: u64,
+) -> Result<(), Box<dyn Error>> {
+    let chosen: [(&str, &[Regime]); 3] = [
+        (
+            "coin in water, .5 m: flutter (3.15)",
+            &[Regime::PeriodicFlutter],
+        ),
+        (
+            "paper, 3.1 m: tumbling, spiral (3.16)",
+            &[Regime::PeriodicTumbling, Regime::PeriodicSpiral],
+        ),
+        (
+            "leaf, 2 m: steady, tumbling, helix (3.17a)",
+            &[
+                Regime::SteadyDescent,
+                Regime::PeriodicTumbling,
+                Regime::TransitionalHelix,
+            ],
+        ),
+    ];
+    let mut panels = Vec::new();
+    for ((body, case), (title, regimes)) in
+        bodies.iter().zip(PhaseDiagram::THESIS_CASES).zip(chosen)
+    {
+        // Deviations are proportional to L/a; the slender paper would land four meters away.
+        let deviation = Deviation {
+            coefficient: body.numbers.length / body.length,
+            ..Deviation::default()
+        };
+        let params = SynthesisParams {
+            main: Some(case.regime),
+            deviation,
+            ..SynthesisParams::default()
+        };
+        let path = body
+            .synthesizer(params, database)?
+            .path_through(regimes, seed)?;
+        let mut panel = Panel::new(title, "x, m", "y, m").equal();
+        let count = if body.height > 3.0 { 90.0 } else { 45.0 };
+        panel.items = trace(
+            &path,
+            body.numbers.length.max(0.04 * body.height),
+            path.duration() / count,
+        );
+        panels.push(panel);
+    }
+    let leaf = &bodies[2];
+    for speed in [3.0, 5.0] {
+        let params = SynthesisParams {
+            main: Some(PhaseDiagram::THESIS_CASES[2].regime),
+            wind: speed,
+            ..SynthesisParams::default()
+        };
+        let wind = SpectralWind::bake(&WindParams {
+            direction: -Vector::X,
+            mean_speed: speed,
+            reference_height: 2.0,
+            roughness: 0.3,
+            seed,
+            ..WindParams::default()
+        })?;
+        let response = WindResponse {
+            mean_speed: speed as Real,
+            ..WindResponse::default()
+        };
+        let synthesizer = leaf.synthesizer(params, database)?;
+        let mut panel = Panel::new(
+            format!("leaf in wind of {speed} m/s, eight falls (3.17)"),
+            "x, m",
+            "y, m",
+        );
+        for fall in 0..8 {
+            let path = synthesizer.path(seed + fall).in_wind(
+                &wind,
+                Vector::Y * 2.0,
+                fall as Real,
+                0.0,
+                &response,
+            )?;
+            panel
+                .items
+                .extend(trace(&path, leaf.numbers.length, Real::INFINITY));
+        }
+        panels.push(panel);
+    }
+    let mut key = Panel::bare("colours; chords not to scale where small");
+    key.window = Some([(0.0, 1.0), (-7.0, 1.0)]);
+    for (i, regime) in Regime::ALL.into_iter().enumerate() {
+        let y = -(i as f64) - 0.5;
+        key.items
+            .push(Item::Line(vec![(-3.0, y), (-2.0, y)], color(regime), 3));
+        key.items
+            .push(Item::Label((0.2, y), regime.to_string(), color(regime)));
+    }
+    panels.push(key);
+    let title = "The thesis's worked bodies, synthesized (Figs. 3.15–3.17)";
+    let path = out.join("synthesis_bodies.svg");
+    draw::write(&path, title, &panels, 3, (430, 560))
+}

@@ -1,0 +1,178 @@
+//! Falls put together from a motion graph: what chapter 3 of H. Xie's thesis shows (Figs. 3.4–3.6, 3.8,
+//! 3.15–3.18), recomputed, the last one with collisions.
+//!
+//! ```text
+//! cargo run --release --features bake --example synthesis -- --out out
+//! ```
+
+#[path = "../patterns/draw.rs"]
+#[allow(dead_code, reason = "shared with the patterns example")]
+mod draw;
+mod figures;
+mod tree;
+
+use clap::Parser;
+use rapier3d_immersed::motion::path::{
+    DatabaseParams, SynthesisParams, Synthesizer, TrajectoryDatabase,
+};
+use rapier3d_immersed::motion::{Numbers, Outline, PhaseDiagram};
+use rapier3d_immersed::{Error, Fluid};
+use serde_json::json;
+use std::path::PathBuf;
+use std::process::exit;
+use std::sync::Arc;
+
+/// Draws the figures of thesis chapter 3.
+#[derive(Parser)]
+#[command(name = "synthesis")]
+struct Arguments {
+    /// Directory for the pictures
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Leaves that fall from the tree
+    #[arg(long, default_value_t = 40, value_parser = clap::value_parser!(u64).range(1..=2000))]
+    leaves: u64,
+    /// Bake the default database into this file, and do nothing else
+    #[arg(long)]
+    write_database: Option<PathBuf>,
+    /// Print numbers as JSON instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+/// A worked body of thesis § 3.6.
+pub struct Body {
+    pub name: &'static str,
+    pub numbers: Numbers,
+    /// Longest extent, m.
+    pub length: f64,
+    /// Release height, m.
+    pub height: f64,
+}
+
+impl Body {
+    pub fn synthesizer(
+        &self,
+        params: SynthesisParams,
+        database: &Arc<TrajectoryDatabase>,
+    ) -> Result<Synthesizer, Error> {
+        let params = SynthesisParams {
+            height: self.height,
+            ..params
+        };
+        Synthesizer::new(&self.numbers, self.length, database.clone(), params)
+    }
+}
+
+/// The coin, the paper and the leaf, in the order of [`PhaseDiagram::THESIS_CASES`]. Densities of paper
+/// and leaf are ours.
+fn bodies() -> Result<[Body; 3], Error> {
+    let body = |name, fluid: Fluid, [length, chord, thickness]: [f64; 3], density, height| {
+        let numbers = Numbers::new(Outline::Round, chord, thickness, density, &fluid, 9.81)?;
+        Ok(Body {
+            name,
+            numbers,
+            length,
+            height,
+        })
+    };
+    Ok([
+        body(
+            "yen coin in water",
+            Fluid::WATER,
+            [0.02, 0.02, 0.0015],
+            2700.0,
+            0.5,
+        )?,
+        body("paper in air", Fluid::AIR, [0.08, 0.02, 0.0001], 800.0, 3.1)?,
+        body(
+            "leaf in air",
+            Fluid::AIR,
+            [0.073, 0.042, 0.0003],
+            400.0,
+            2.0,
+        )?,
+    ])
+}
+
+fn main() {
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| {
+        if !error.use_stderr() {
+            error.exit();
+        }
+        let message = error.to_string();
+        eprintln!("{}", message.lines().next().unwrap_or_default());
+        exit(2)
+    });
+    if let Err(error) = run(&arguments) {
+        eprintln!("error: {error}");
+        exit(1)
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
+    if let Some(path) = &arguments.write_database {
+        let (database, report) = TrajectoryDatabase::bake(&DatabaseParams::default())?;
+        std::fs::write(path, database.to_bytes())
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        println!(
+            "{} segments; solutions: {report:?}",
+            database.entries().len()
+        );
+        return Ok(());
+    }
+    std::fs::create_dir_all(&arguments.out)
+        .map_err(|error| format!("cannot create {}: {error}", arguments.out.display()))?;
+    let database = TrajectoryDatabase::shipped();
+    let bodies = bodies()?;
+    let diagram = PhaseDiagram::default();
+    let mut rows = Vec::new();
+    for (body, case) in bodies.iter().zip(PhaseDiagram::THESIS_CASES) {
+        let numbers = &body.numbers;
+        let [printed, computed] = [
+            (case.reynolds, case.i_star),
+            (numbers.reynolds_u0, numbers.i_star),
+        ];
+        let regime = |(re, i): (f64, f64)| diagram.regime(re, i).to_string();
+        if !arguments.json {
+            println!(
+                "{}: U {:.3} m/s; printed Re {:.3e}, I* {:.2e} ({}; the thesis sees {}); computed Re {:.3e}, I* {:.2e} ({})",
+                body.name,
+                numbers.u0,
+                printed.0,
+                printed.1,
+                regime(printed),
+                case.regime,
+                computed.0,
+                computed.1,
+                regime(computed),
+            );
+        }
+        rows.push(json!({
+            "body": body.name,
+            "descent_m_per_s": numbers.u0,
+            "printed": { "reynolds": printed.0, "i_star": printed.1, "regime": regime(printed) },
+            "computed": { "reynolds": computed.0, "i_star": computed.1, "regime": regime(computed) },
+            "thesis_regime": case.regime.to_string(),
+        }));
+    }
+    figures::database(&arguments.out, &database)?;
+    figures::patterns(&arguments.out, &bodies[2], &database, arguments.seed)?;
+    figures::bodies(&arguments.out, &bodies, &database, arguments.seed)?;
+    let report = tree::draw(
+        &arguments.out,
+        &bodies[2],
+        &database,
+        arguments.leaves,
+        arguments.seed,
+    )?;
+    if arguments.json {
+        println!("{:#}", json!({ "bodies": rows, "tree": report }));
+    } else {
+        println!("tree: {report}");
+    }
+    Ok(())
+}

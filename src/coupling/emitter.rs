@@ -1,0 +1,283 @@
+//! Suspensions: bodies that enter a scene all the time, some played, some driven by forces (thesis
+//! § 7.3: snow, dust, confetti).
+
+use super::immersion::Immersion;
+use super::player::{AtContact, Drive, MotionPlayer};
+use super::players::MotionPlayers;
+use crate::Error;
+use crate::body::ImmersedBody;
+use crate::motion::path::MotionPath;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::geometry::ColliderBuilder;
+use rapier3d::math::{Real, Rotation, Vector};
+use rapier3d::pipeline::PhysicsWorld;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// Where, how many and what kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmitterParams {
+    /// Corners of the box in which bodies appear, m. Default a meter square 3 m up.
+    pub corners: [Vector; 2],
+    /// Bodies per second. Default 100.
+    pub rate: Real,
+    /// Most bodies at a time; then the oldest makes room. Default 10 000.
+    pub most: usize,
+    /// Share of bodies that play a path; the others are immersed. Default 0.9.
+    pub played: Real,
+    /// How long a body stays, s. Default 60.
+    pub lifetime: Real,
+    /// How players follow their path; kinematic ones are never immersed. Default a compliance of 0.1 s.
+    pub drive: Drive,
+    /// What a contact does to them. Default: the force model takes over.
+    pub at_contact: AtContact,
+    /// Seed of places, headings and paths. Default 0.
+    pub seed: u64,
+}
+
+impl Default for EmitterParams {
+    fn default() -> Self {
+        Self {
+            corners: [Vector::new(-0.5, 3.0, -0.5), Vector::new(0.5, 3.0, 0.5)],
+            rate: 100.0,
+            most: 10_000,
+            played: 0.9,
+            lifetime: 60.0,
+            drive: Drive::Velocity { compliance: 0.1 },
+            at_contact: AtContact::HandOver,
+            seed: 0,
+        }
+    }
+}
+
+/// Lets equal bodies into a world.
+#[derive(Clone)]
+pub struct Emitter {
+    params: EmitterParams,
+    body: RigidBodyBuilder,
+    collider: ColliderBuilder,
+    immersed: ImmersedBody,
+    paths: Vec<Arc<MotionPath>>,
+    axes: Rotation,
+    random: Pcg64Mcg,
+    due: Real,
+    time: f64,
+    alive: VecDeque<(f64, RigidBodyHandle)>,
+}
+
+impl Emitter {
+    /// An emitter of bodies like `body` with `collider` (whose center of mass is the body's origin)
+    /// that are `immersed` so, and play one of `paths`.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::InvalidParameter`] or [`Error::OutOfRange`] names a parameter that
+    /// cannot be; [`Error::WrongLength`] if bodies shall be played and there is no path.
+    pub fn new(
+        params: EmitterParams,
+        body: RigidBodyBuilder,
+        collider: ColliderBuilder,
+        immersed: impl Into<ImmersedBody>,
+        paths: Vec<Arc<MotionPath>>,
+    ) -> Result<Self, Error> {
+        for corner in params.corners {
+            Error::check_all_finite("corners", &corner.to_array().map(f64::from))?;
+        }
+        Error::check_not_negative("rate", params.rate.into())?;
+        Error::check_range("most", params.most as f64, 1.0, 1e7)?;
+        Error::check_range("played", params.played.into(), 0.0, 1.0)?;
+        Error::check_positive("lifetime", params.lifetime.into())?;
+        if let Some(path) = paths.first() {
+            let player = MotionPlayer {
+                drive: params.drive,
+                at_contact: params.at_contact,
+                ..MotionPlayer::new(path.clone(), params.corners[0])
+            };
+            player.check()?;
+        } else if params.played > 0.0 {
+            return Err(Error::WrongLength {
+                what: "paths to play",
+                expected: 1,
+                actual: 0,
+            });
+        }
+        let immersed = immersed.into();
+        let axes = crate::math::to_rotation(immersed.hydro.planform.axes.into());
+        Ok(Self {
+            random: Pcg64Mcg::seed_from_u64(params.seed),
+            params,
+            body,
+            collider,
+            immersed,
+            paths,
+            axes,
+            due: 0.0,
+            time: 0.0,
+            alive: VecDeque::new(),
+        })
+    }
+
+    /// Bodies in the world, oldest first.
+    pub fn alive(&self) -> impl Iterator<Item = RigidBodyHandle> {
+        self.alive.iter().map(|(_, handle)| *handle)
+    }
+
+    /// Lets in what is due in a step of the world, and takes out what is too old or too many. To be
+    /// called before [`MotionPlayers::before_step`].
+    pub fn before_step(
+        &mut self,
+        world: &mut PhysicsWorld,
+        players: &mut MotionPlayers,
+        immersion: &mut Immersion,
+    ) {
+        let dt = world.integration_parameters.dt.max(0.0);
+        self.time += f64::from(dt);
+        self.due += self.params.rate * dt;
+        let count = self.due.floor();
+        self.due -= count;
+        let count = (count as usize).min(self.params.most);
+        let oldest = self.time - f64::from(self.params.lifetime);
+        let room = self.params.most - count;
+        while let Some((born, handle)) = self.alive.front().copied()
+            && (born < oldest || self.alive.len() > room)
+        {
+            players.stop(handle, None);
+            immersion.remove(handle, &mut world.bodies, &mut world.colliders);
+            world.remove_body(handle);
+            self.alive.pop_front();
+        }
+        for _ in 0..count {
+            let handle = self.emit(world, players, immersion);
+            self.alive.push_back((self.time, handle));
+        }
+    }
+
+    fn emit(
+        &mut self,
+        world: &mut PhysicsWorld,
+        players: &mut MotionPlayers,
+        immersion: &mut Immersion,
+    ) -> RigidBodyHandle {
+        let [low, high] = self.params.corners;
+        let random = &mut self.random;
+        let mut share = || random.random_range(0.0..1.0f32);
+        let place = low + (high - low) * Vector::new(share(), share(), share());
+        let heading = share() * std::f32::consts::TAU;
+        let played = share() < self.params.played;
+        let tilt = Rotation::from_axis_angle(Vector::X, share() - 0.5);
+        let mut body = self.body.clone();
+        if played {
+            let path = &self.paths[random.random_range(0..self.paths.len())];
+            let player = MotionPlayer {
+                heading,
+                axes: self.axes,
+                drive: self.params.drive,
+                at_contact: self.params.at_contact,
+                ..MotionPlayer::new(path.clone(), place)
+            };
+            body = body.pose(player.release(Vector::ZERO));
+            let (handle, _) = world.insert(body, self.collider.clone());
+            players
+                .play(handle, &player)
+                .expect("the emitter's players were checked");
+            if self.params.drive != Drive::Kinematic {
+                immersion.insert(handle, self.immersed.clone());
+            }
+            handle
+        } else {
+            let turn = Rotation::from_axis_angle(Vector::Y, heading) * tilt;
+            body = body.pose(rapier3d::math::Pose::from_parts(place, turn));
+            let (handle, _) = world.insert(body, self.collider.clone());
+            immersion.insert(handle, self.immersed.clone());
+            handle
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coupling::step::RapierSets;
+    use crate::motion::Regime;
+    use crate::motion::path::{Key, MotionPath};
+    use crate::{Fluid, HydroProperties};
+
+    fn confetti(params: EmitterParams) -> Result<Emitter, Error> {
+        let collider = ColliderBuilder::cuboid(0.01, 0.0005, 0.006).density(300.0);
+        let hydro = HydroProperties::from_shape(collider.shape.as_ref())?;
+        let key = |y: Real| Key {
+            position: Vector::Y * y,
+            velocity: -Vector::Y,
+            attitude: Rotation::from_axis_angle(Vector::X, -std::f32::consts::FRAC_PI_2),
+        };
+        let regimes = vec![(0.0, Regime::SteadyDescent)];
+        let path = MotionPath::new(2.0, vec![key(0.0), key(-2.0)], regimes)?;
+        let body = RigidBodyBuilder::dynamic();
+        Emitter::new(params, body, collider, hydro, vec![Arc::new(path)])
+    }
+
+    fn run(seed: u64) -> (Vec<Vector>, usize, usize) {
+        let mut emitter = confetti(EmitterParams {
+            rate: 200.0,
+            most: 150,
+            played: 0.5,
+            lifetime: 0.9,
+            seed,
+            ..EmitterParams::default()
+        })
+        .unwrap();
+        let mut world = PhysicsWorld::new();
+        let mut players = MotionPlayers::new();
+        let mut immersion = Immersion::new(Fluid::AIR);
+        for _ in 0..90 {
+            emitter.before_step(&mut world, &mut players, &mut immersion);
+            players.before_step(&mut RapierSets::of(&mut world), Some(&mut immersion));
+            immersion.step(&mut world);
+            assert!(world.bodies.len() <= 150);
+        }
+        let places = emitter.alive().map(|h| world.bodies[h].translation());
+        (places.collect(), players.len(), immersion.len())
+    }
+
+    /// Full after 0.75 s, never more than asked, about half of them played, and the same for the same
+    /// seed.
+    #[test]
+    fn a_steady_stream() {
+        let (places, players, immersed) = run(3);
+        assert_eq!(places.len(), 150);
+        assert_eq!(immersed, 150);
+        // Binomial(150, ½) within 5 standard deviations.
+        assert!((45..=105).contains(&players), "{players}");
+        assert!(places.iter().all(|p| p.is_finite() && p.y < 3.01));
+        assert_eq!(run(3).0, places);
+        assert_ne!(run(4).0, places);
+    }
+
+    #[test]
+    fn impossible_emitters_are_refused() {
+        let base = EmitterParams::default();
+        for bad in [
+            EmitterParams { rate: -1.0, ..base },
+            EmitterParams { most: 0, ..base },
+            EmitterParams {
+                played: 1.5,
+                ..base
+            },
+            EmitterParams {
+                lifetime: Real::NAN,
+                ..base
+            },
+            EmitterParams {
+                corners: [Vector::NAN; 2],
+                ..base
+            },
+            EmitterParams {
+                drive: Drive::Velocity { compliance: -1.0 },
+                ..base
+            },
+        ] {
+            assert!(confetti(bad).is_err(), "{bad:?}");
+        }
+    }
+}

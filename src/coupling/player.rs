@@ -1,0 +1,100 @@
+//! How a body follows a synthesized fall (thesis chapter 3).
+
+use crate::Error;
+use crate::motion::path::MotionPath;
+use rapier3d::math::{Pose, Real, Rotation, Vector};
+use std::sync::Arc;
+
+/// How a body is made to follow its path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Drive {
+    /// By its position; for position-based kinematic bodies, which nothing deflects. At the end of the
+    /// path the body becomes dynamic.
+    Kinematic,
+    /// By its velocity, every step anew; for dynamic bodies. What contacts displace comes back within
+    /// about `compliance` seconds; zero is at once.
+    Velocity {
+        /// Time constant, s.
+        compliance: Real,
+    },
+}
+
+/// What a contact does to a body that is driven by its velocity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum AtContact {
+    /// The body is played no more. If it is immersed, the force model takes over, otherwise rapier
+    /// alone. The default.
+    #[default]
+    HandOver,
+    /// So, too; but once nothing has touched it for `after` seconds the path goes on from where the
+    /// body then is.
+    Resume {
+        /// Time without contact, s.
+        after: Real,
+    },
+    /// The path goes on from where the contact moved the body, at first with the velocity that the
+    /// contact gave it.
+    Deflect,
+    /// The path goes on and pulls the body back.
+    Ignore,
+}
+
+/// One body's path and how it follows it.
+#[derive(Clone, Debug)]
+pub struct MotionPlayer {
+    /// The path; players may share it.
+    pub path: Arc<MotionPath>,
+    /// Where the path begins, world axes, m.
+    pub origin: Vector,
+    /// How far the path is turned about +Y, rad. Default 0.
+    pub heading: Real,
+    /// The plate axes (x longest, z normal) in the body's frame:
+    /// [`Planform::axes`](crate::hydro::Planform), or the default, for a body that is longest along x
+    /// and thinnest along y.
+    pub axes: Rotation,
+    /// Default [`Drive::Velocity`] with a compliance of 0.1 s.
+    pub drive: Drive,
+    /// Default [`AtContact::HandOver`].
+    pub at_contact: AtContact,
+}
+
+impl MotionPlayer {
+    /// A player with the defaults.
+    pub fn new(path: Arc<MotionPath>, origin: Vector) -> Self {
+        Self {
+            path,
+            origin,
+            heading: 0.0,
+            axes: Rotation::from_axis_angle(Vector::X, -std::f32::consts::FRAC_PI_2),
+            drive: Drive::Velocity { compliance: 0.1 },
+            at_contact: AtContact::default(),
+        }
+    }
+
+    /// Pose of the body's frame at the beginning of the path, for a body whose center of mass is at
+    /// `local_com` of its frame.
+    pub fn release(&self, local_com: Vector) -> Pose {
+        let turn = Rotation::from_axis_angle(Vector::Y, self.heading);
+        let key = self.path.at(0.0);
+        let rotation = (turn * key.attitude * self.axes.inverse()).normalize();
+        let com = self.origin + turn * key.position;
+        Pose::from_parts(com - rotation * local_com, rotation)
+    }
+
+    /// # Errors
+    /// [`Error::NotFinite`] or [`Error::InvalidParameter`] names a value that is not finite, negative,
+    /// or no rotation.
+    pub fn check(&self) -> Result<(), Error> {
+        Error::check_all_finite("origin", &self.origin.to_array().map(f64::from))?;
+        Error::check_finite("heading", self.heading.into())?;
+        let norm = f64::from(self.axes.length());
+        Error::check("norm of the axes", norm, (norm - 1.0).abs() < 1e-3, "1")?;
+        if let Drive::Velocity { compliance } = self.drive {
+            Error::check_not_negative("compliance", compliance.into())?;
+        }
+        if let AtContact::Resume { after } = self.at_contact {
+            Error::check_not_negative("after", after.into())?;
+        }
+        Ok(())
+    }
+}

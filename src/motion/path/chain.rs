@@ -1,0 +1,77 @@
+//! The Markov chain over the six regimes (thesis § 3.4).
+
+use crate::motion::{MotionGraph, Regime};
+
+/// Probability that a fall goes on in its regime at a turning point, by default.
+const STAY: f64 = 0.75;
+
+impl MotionGraph {
+    /// The graph of thesis Fig. 3.10 over the six [regimes](Regime::ALL), L₁ = SD … L₆ = PS: block upper
+    /// triangular (3.13), so that sequences strictly increase once repeats are merged.
+    ///
+    /// The thesis prints the form of P and how to count it, but no numbers. These are ours: a fall stays
+    /// in its regime for four segments on average (probability ¾); each regime further on is half as
+    /// likely as the one before it; any start is as likely as any other ("starts from a random
+    /// pattern"). [`MotionGraph::estimate`] counts a graph from labelled falls.
+    pub fn free_fall() -> Self {
+        let states = Regime::ALL.len();
+        let row = |from: usize| -> Vec<f64> {
+            let ahead = |to: usize| 0.5f64.powi((to - from) as i32);
+            let sum: f64 = (from + 1..states).map(ahead).sum();
+            let leave = |to: usize| (1.0 - STAY) * ahead(to) / sum;
+            (0..states)
+                .map(|to| match to.cmp(&from) {
+                    std::cmp::Ordering::Less => 0.0,
+                    std::cmp::Ordering::Equal if sum == 0.0 => 1.0,
+                    std::cmp::Ordering::Equal => STAY,
+                    std::cmp::Ordering::Greater => leave(to),
+                })
+                .collect()
+        };
+        let start = vec![1.0 / states as f64; states];
+        Self::new(start, (0..states).map(row).collect()).expect("rows sum to one by construction")
+    }
+}
+
+/// Motion classes up to a main regime: every set of regimes up to it, in order. There are Σ C(k, i) =
+/// 2^k − 1 of them (3.11) if it is the k-th.
+pub fn motion_classes(main: Regime) -> Vec<Vec<Regime>> {
+    let level = main as u32 + 1;
+    (1..1u32 << level)
+        .map(|set| {
+            let has = |regime: &Regime| set & (1 << *regime as u32) != 0;
+            Regime::ALL.into_iter().filter(has).collect()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// (3.13): nothing leads back, neither within the plane patterns nor from the spatial ones.
+    #[test]
+    fn the_graph_is_block_triangular() {
+        let graph = MotionGraph::free_fall();
+        assert_eq!(graph.check(), Ok(()));
+        assert!(graph.is_unidirectional());
+        let planar = Regime::PeriodicTumbling as usize;
+        for spatial in planar + 1..6 {
+            assert!((0..=planar).all(|to| graph.probability(spatial, to) == 0.0));
+        }
+        assert!(graph.is_absorbing(5) && !graph.is_absorbing(4));
+        assert!((graph.probability(0, 1) / graph.probability(0, 2) - 2.0).abs() < 1e-12);
+    }
+
+    /// (3.11) by summing binomials.
+    #[test]
+    fn class_counts() {
+        for (index, main) in Regime::ALL.into_iter().enumerate() {
+            let k = index as u64 + 1;
+            let binomial = |i: u64| (0..i).fold(1, |c, j| c * (k - j) / (j + 1));
+            let classes = motion_classes(main);
+            assert_eq!(classes.len() as u64, (1..=k).map(binomial).sum::<u64>());
+            assert!(classes.iter().all(|c| c.windows(2).all(|p| p[0] < p[1])));
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! The trajectory database: motion segments with their orientation, found by feature vector (thesis
+//! § 3.3.2).
+
+use super::segment::{Glide, HarmonicFlutter, Segment};
+use super::tanabe_kaneko::AngleCurve;
+use crate::Error;
+use crate::file::{FileKind, Reader, Writer};
+use rand::{Rng, RngExt};
+use rapier3d::na::Vector2;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+use std::sync::{Arc, LazyLock};
+
+/// A segment of the database.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// The segment, in units of U and a length of the body.
+    pub segment: Segment,
+    /// K-means class of its feature vector.
+    pub class: u32,
+    /// Which curve turns it back at its ends, index into [`TrajectoryDatabase::flutter`].
+    pub flutter: u32,
+    /// Which curve turns it over, index into [`TrajectoryDatabase::tumbling`].
+    pub tumbling: u32,
+}
+
+/// Segments, the angles along them, and an index by feature vector.
+///
+/// Baked by `TrajectoryDatabase::bake` (feature `bake`), or the one that ships with the crate.
+#[derive(Clone, Debug)]
+pub struct TrajectoryDatabase {
+    entries: Vec<Entry>,
+    classes: Vec<Vector2<f64>>,
+    flutter: Vec<AngleCurve>,
+    tumbling: Vec<AngleCurve>,
+    index: RTree<GeomWithData<[f64; 2], u32>>,
+}
+
+impl PartialEq for TrajectoryDatabase {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.entries, &self.classes) == (&other.entries, &other.classes)
+            && (&self.flutter, &self.tumbling) == (&other.flutter, &other.tumbling)
+    }
+}
+
+const FILE: FileKind = FileKind {
+    name: "trajectory database",
+    magic: *b"R3DI-TDB",
+    version: 1,
+};
+
+/// Entries, classes or curves that a file may hold.
+const MOST: u64 = 1 << 20;
+
+/// Where a feature vector lies in the index: lengths by ratio, because segments span decades.
+pub(super) fn place(feature: &Vector2<f64>) -> [f64; 2] {
+    let across = (feature.x.abs() + 1e-3).ln() - 1e-3f64.ln();
+    [across.copysign(feature.x), (-feature.y).max(1e-9).ln()]
+}
+
+impl TrajectoryDatabase {
+    /// A database of these parts.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] if there is no entry, class or curve of a kind;
+    /// [`Error::InvalidParameter`], [`Error::OutOfRange`] or [`Error::NotFinite`] names what is wrong
+    /// with one.
+    pub fn new(
+        entries: Vec<Entry>,
+        classes: Vec<Vector2<f64>>,
+        flutter: Vec<AngleCurve>,
+        tumbling: Vec<AngleCurve>,
+    ) -> Result<Self, Error> {
+        for (what, count) in [
+            ("segments of the database", entries.len()),
+            ("classes of the database", classes.len()),
+            ("flutter curves of the database", flutter.len()),
+            ("tumbling curves of the database", tumbling.len()),
+        ] {
+            if count == 0 {
+                return Err(Error::WrongLength {
+                    what,
+                    expected: 1,
+                    actual: 0,
+                });
+            }
+        }
+        for class in &classes {
+            Error::check_all_finite("class of the database", class.as_slice())?;
+        }
+        for curve in flutter.iter().chain(&tumbling) {
+            Error::check_range("slope of an angle curve", curve.slope, 0.0, 1e3)?;
+            for angle in curve.angles {
+                Error::check_range("angle of a curve", angle, -10.0, 10.0)?;
+            }
+        }
+        for entry in &entries {
+            let HarmonicFlutter {
+                horizontal,
+                vertical,
+                frequency,
+            } = entry.segment.flutter;
+            Error::check_range("horizontal amplitude", horizontal, 0.0, 1e3)?;
+            Error::check_range("vertical amplitude", vertical, 0.0, 1e3)?;
+            Error::check_range("frequency", frequency, 1e-4, 1e4)?;
+            let below = |what, index: u32, count: usize| {
+                Error::check_range(what, f64::from(index), 0.0, count as f64 - 1.0)
+            };
+            below("class of a segment", entry.class, classes.len())?;
+            below("flutter curve of a segment", entry.flutter, flutter.len())?;
+            below(
+                "tumbling curve of a segment",
+                entry.tumbling,
+                tumbling.len(),
+            )?;
+        }
+        let points = entries
+            .iter()
+            .enumerate()
+            .map(|(index, entry)| GeomWithData::new(place(&entry.segment.feature()), index as u32));
+        Ok(Self {
+            index: RTree::bulk_load(points.collect()),
+            entries,
+            classes,
+            flutter,
+            tumbling,
+        })
+    }
+
+    /// The database that ships with the crate: `DatabaseParams::default()`, as
+    /// `cargo run --release --features bake --example synthesis -- --write-database PATH` bakes it.
+    pub fn shipped() -> Arc<Self> {
+        static DATABASE: LazyLock<Arc<TrajectoryDatabase>> = LazyLock::new(|| {
+            Arc::new(
+                TrajectoryDatabase::from_bytes(include_bytes!("database.bin"))
+                    .expect("the shipped database is valid, as a test asserts"),
+            )
+        });
+        DATABASE.clone()
+    }
+
+    /// The segments.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// Centers of the classes: mean feature vectors.
+    pub fn classes(&self) -> &[Vector2<f64>] {
+        &self.classes
+    }
+
+    /// Angles of segments that turn back.
+    pub fn flutter(&self) -> &[AngleCurve] {
+        &self.flutter
+    }
+
+    /// Angles of segments that turn over.
+    pub fn tumbling(&self) -> &[AngleCurve] {
+        &self.tumbling
+    }
+
+    /// The segment whose feature vector is nearest, by ratio of lengths; of several with the same
+    /// feature vector (they differ in A_y) one is drawn.
+    pub fn nearest(&self, feature: Vector2<f64>, random: &mut impl Rng) -> &Entry {
+        let nearest = self.index.nearest_neighbor(place(&feature));
+        let nearest = nearest.expect("a database has at least one segment");
+        let mut equal: Vec<u32> = self
+            .index
+            .locate_all_at_point(*nearest.geom())
+            .map(|point| point.data)
+            .collect();
+        equal.sort_unstable();
+        let chosen = equal[random.random_range(0..equal.len())];
+        &self.entries[chosen as usize]
+    }
+
+    /// This as the bytes of a file.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut writer = Writer::default();
+        writer.u64(self.entries.len() as u64);
+        writer.u64(self.classes.len() as u64);
+        writer.u64(self.flutter.len() as u64);
+        writer.u64(self.tumbling.len() as u64);
+        for entry in &self.entries {
+            let flutter = entry.segment.flutter;
+            writer.f64(entry.segment.glide.sign());
+            writer.f64(flutter.horizontal);
+            writer.f64(flutter.vertical);
+            writer.f64(flutter.frequency);
+            for index in [entry.class, entry.flutter, entry.tumbling] {
+                writer.u64(index.into());
+            }
+        }
+        for class in &self.classes {
+            writer.f64(class.x);
+            writer.f64(class.y);
+        }
+        for curve in self.flutter.iter().chain(&self.tumbling) {
+            writer.f64(curve.slope);
+            for angle in curve.angles {
+                writer.f64(angle);
+            }
+        }
+        writer.finish(&FILE)
+    }
+
+    /// Reads what [`TrajectoryDatabase::to_bytes`] wrote.
+    ///
+    /// # Errors
+    /// If the bytes are of another kind or version, truncated, altered, or describe what
+    /// [`TrajectoryDatabase::new`] refuses.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let mut reader = Reader::new(&FILE, bytes)?;
+        let [entries, classes, flutter, tumbling] = [
+            reader.length("segments of the database", MOST)?,
+            reader.length("classes of the database", MOST)?,
+            reader.length("flutter curves of the database", MOST)?,
+            reader.length("tumbling curves of the database", MOST)?,
+        ];
+        let numbers = 7 * entries + 2 * classes + (1 + AngleCurve::SAMPLES) * (flutter + tumbling);
+        reader.expect_rest(8 * numbers as u64)?;
+        let mut read = Vec::with_capacity(entries);
+        for _ in 0..entries {
+            let sign = reader.f64("glide of a segment")?;
+            let valid = sign == 1.0 || sign == -1.0;
+            Error::check("glide of a segment", sign, valid, "1 or -1")?;
+            let flutter = HarmonicFlutter {
+                horizontal: reader.f64("horizontal amplitude")?,
+                vertical: reader.f64("vertical amplitude")?,
+                frequency: reader.f64("frequency")?,
+            };
+            let glide = if sign > 0.0 {
+                Glide::Right
+            } else {
+                Glide::Left
+            };
+            read.push(Entry {
+                segment: Segment { flutter, glide },
+                class: reader.length("class of a segment", MOST)? as u32,
+                flutter: reader.length("flutter curve of a segment", MOST)? as u32,
+                tumbling: reader.length("tumbling curve of a segment", MOST)? as u32,
+            });
+        }
+        let mut centers = Vec::with_capacity(classes);
+        for _ in 0..classes {
+            let across = reader.f64("class of the database")?;
+            centers.push(Vector2::new(across, reader.f64("class of the database")?));
+        }
+        let mut curves = Vec::with_capacity(flutter + tumbling);
+        for _ in 0..flutter + tumbling {
+            let slope = reader.f64("slope of an angle curve")?;
+            let mut angles = [0.0; AngleCurve::SAMPLES];
+            for angle in &mut angles {
+                *angle = reader.f64("angle of a curve")?;
+            }
+            curves.push(AngleCurve { slope, angles });
+        }
+        let tumbling = curves.split_off(flutter);
+        Self::new(read, centers, curves, tumbling)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_pcg::Pcg64Mcg;
+
+    #[test]
+    fn the_shipped_database_is_valid() {
+        let database = TrajectoryDatabase::shipped();
+        assert_eq!(
+            TrajectoryDatabase::from_bytes(&database.to_bytes()).as_ref(),
+            Ok(&*database)
+        );
+        assert!(database.entries().len() > 1000);
+    }
+
+    /// The index against looking at every segment.
+    #[test]
+    fn the_nearest_is_the_nearest() {
+        let database = TrajectoryDatabase::shipped();
+        let mut random = Pcg64Mcg::seed_from_u64(3);
+        let distance = |a: &Vector2<f64>, b: &Vector2<f64>| {
+            let (a, b) = (place(a), place(b));
+            (a[0] - b[0]).hypot(a[1] - b[1])
+        };
+        for _ in 0..200 {
+            let across = random.random_range(-4.0..4.0);
+            let feature = Vector2::new(across, -random.random_range(0.1..20.0));
+            let found = database.nearest(feature, &mut random).segment.feature();
+            let all = database.entries().iter().map(|e| e.segment.feature());
+            let least = all.map(|f| distance(&f, &feature)).fold(f64::MAX, f64::min);
+            assert_eq!(distance(&found, &feature), least);
+        }
+    }
+
+    fn small() -> TrajectoryDatabase {
+        let curve = AngleCurve {
+            slope: 1.0,
+            angles: [0.5; AngleCurve::SAMPLES],
+        };
+        let entry = |glide| Entry {
+            segment: Segment {
+                flutter: HarmonicFlutter {
+                    horizontal: 1.0,
+                    vertical: 0.5,
+                    frequency: 2.0,
+                },
+                glide,
+            },
+            class: 0,
+            flutter: 0,
+            tumbling: 0,
+        };
+        TrajectoryDatabase::new(
+            vec![entry(Glide::Left), entry(Glide::Right)],
+            vec![Vector2::new(0.0, -1.0)],
+            vec![curve.clone()],
+            vec![curve],
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn damaged_files_are_refused() {
+        let bytes = small().to_bytes();
+        assert_eq!(
+            TrajectoryDatabase::from_bytes(&bytes).as_ref(),
+            Ok(&small())
+        );
+        for length in 0..bytes.len() {
+            assert!(TrajectoryDatabase::from_bytes(&bytes[..length]).is_err());
+        }
+        for at in 0..bytes.len() {
+            let mut altered = bytes.clone();
+            altered[at] ^= 0x04;
+            assert!(TrajectoryDatabase::from_bytes(&altered).is_err(), "{at}");
+        }
+    }
+
+    /// Rightly framed, but wrong.
+    #[test]
+    fn bad_databases_are_refused() {
+        let refused = |change: &dyn Fn(&mut TrajectoryDatabase)| {
+            let mut bad = small();
+            change(&mut bad);
+            assert!(TrajectoryDatabase::from_bytes(&bad.to_bytes()).is_err());
+        };
+        refused(&|d| d.entries.clear());
+        refused(&|d| d.classes.clear());
+        refused(&|d| d.flutter.clear());
+        refused(&|d| d.entries[1].class = 1);
+        refused(&|d| d.entries[1].tumbling = 7);
+        refused(&|d| d.entries[0].segment.flutter.frequency = 0.0);
+        refused(&|d| d.entries[0].segment.flutter.horizontal = f64::NAN);
+        refused(&|d| d.entries[0].segment.flutter.vertical = -1.0);
+        refused(&|d| d.tumbling[0].angles[3] = f64::INFINITY);
+        refused(&|d| d.flutter[0].slope = -1.0);
+        refused(&|d| d.classes[0].x = f64::NAN);
+    }
+}

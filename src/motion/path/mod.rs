@@ -1,0 +1,38 @@
+//! Graph-based synthesis (thesis chapter 3): falls put together from motion segments, without forces.
+//!
+//! Cheap motion that can be directed: [`Segment`]s cut from a harmonic flutter (3.6), orientation from
+//! the equations of [`TanabeKaneko`] (3.4), the [`UnifiedCurve`] of spirals and helices (3.7), and a
+//! Markov chain over the six regimes that says what follows what.
+//!
+//! Two sorts of coordinates: the *glide plane* has x along the glide and y up, angles counter-clockwise
+//! from x to y; the *fall's frame* has y up, the glide plane at z = 0, and the release at its origin.
+
+pub mod amplitude;
+#[cfg(feature = "bake")]
+mod bake;
+pub mod chain;
+pub mod curve;
+pub mod database;
+mod drift;
+mod piece;
+pub mod search_tree;
+pub mod segment;
+pub mod shape;
+pub mod synthesis;
+pub mod tanabe_kaneko;
+pub mod track;
+pub mod wind;
+
+pub use amplitude::{Deviation, chaotic_factor};
+#[cfg(feature = "bake")]
+pub use bake::{BakeReport, DatabaseParams};
+pub use chain::motion_classes;
+pub use curve::UnifiedCurve;
+pub use database::{Entry, TrajectoryDatabase};
+pub use search_tree::SearchTree;
+pub use segment::{Glide, HarmonicFlutter, Segment};
+pub use shape::HorizontalShape;
+pub use synthesis::{SynthesisParams, Synthesizer};
+pub use tanabe_kaneko::{AngleCurve, Fall, TanabeKaneko};
+pub use track::{Key, MotionPath};
+pub use wind::WindResponse;

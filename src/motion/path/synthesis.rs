@@ -1,0 +1,527 @@
+//! From a body and a fluid to a fall (thesis § 3.4, § 3.6).
+
+use super::amplitude::{Deviation, chaotic_factor};
+use super::curve::UnifiedCurve;
+use super::database::{Entry, TrajectoryDatabase};
+use super::drift::Drifts;
+use super::piece::{Course, Instant, Piece, Units};
+use super::search_tree::SearchTree;
+use super::segment::Glide;
+use super::track::{Key, MotionPath};
+use crate::Error;
+use crate::math::{to_real, to_rotation};
+use crate::motion::{MotionGraph, Numbers, PhaseDiagram, Regime};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use rapier3d::math::Real;
+use rapier3d::na::{Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// How falls are synthesized.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SynthesisParams {
+    /// h: height of release, m. Default 2.
+    pub height: f64,
+    /// The main regime; `None` (the default) looks it up in `diagram` at Re = U0 L/ν and I*.
+    pub main: Option<Regime>,
+    /// The phase diagram.
+    pub diagram: PhaseDiagram,
+    /// Which regime follows which. Default [`MotionGraph::free_fall`].
+    pub graph: MotionGraph,
+    /// How far falls land from below their release; gives the amplitude too. Default
+    /// [`Deviation::default`].
+    pub deviation: Deviation,
+    /// Ω over U/a: angular frequency of flutter and tumbling, Ω ~ √((ρ_s/ρ_f − 1) g b)/a (thesis
+    /// § 3.3.5). Default 1.
+    pub frequency: f64,
+    /// Amplitude over the A_0 of (3.10), whose swing is just as fast as the fall drifts away, so that
+    /// nothing would ever swing back. Default 2.5 (ours).
+    pub swing: f64,
+    /// How much slower a spiral or helix turns than a flutter swings. Default 3 (ours).
+    pub slowness: f64,
+    /// ε of the helix. Default 0.3.
+    pub ellipticity: f64,
+    /// How long a splice takes, in half periods π/Ω. Default 0.5.
+    pub blend: f64,
+    /// Mean wind, m/s: tumbling and chaotic motion become rarer in it. Default 0.
+    pub wind: f64,
+    /// Wind, in U, at which they are e times rarer; their share falls as exp(−(wind/(this·U))²). Default
+    /// 1.5: the leaf of thesis Fig. 3.17 no longer tumbles at 3 m/s.
+    pub calming_wind: f64,
+    /// Time between keyframes at most, s. Default 1/120.
+    pub interval: f64,
+}
+
+impl Default for SynthesisParams {
+    fn default() -> Self {
+        Self {
+            height: 2.0,
+            main: None,
+            diagram: PhaseDiagram::default(),
+            graph: MotionGraph::free_fall(),
+            deviation: Deviation::default(),
+            frequency: 1.0,
+            swing: 2.5,
+            slowness: 3.0,
+            ellipticity: 0.3,
+            blend: 0.5,
+            wind: 0.0,
+            calming_wind: 1.5,
+            interval: 1.0 / 120.0,
+        }
+    }
+}
+
+impl SynthesisParams {
+    /// # Errors
+    /// [`Error::InvalidParameter`] or [`Error::OutOfRange`] names the value that cannot be;
+    /// [`Error::WrongLength`] if the graph has other than six states.
+    pub fn check(&self) -> Result<(), Error> {
+        Error::check_positive("height", self.height)?;
+        self.diagram.check()?;
+        self.graph.check()?;
+        Error::check_length("states of the motion graph", 6, self.graph.states())?;
+        self.deviation.check()?;
+        Error::check_positive("frequency", self.frequency)?;
+        Error::check_not_negative("swing", self.swing)?;
+        Error::check_positive("slowness", self.slowness)?;
+        Error::check_range("ellipticity", self.ellipticity, 0.0, 10.0)?;
+        Error::check_range("blend", self.blend, 1e-3, 10.0)?;
+        Error::check_not_negative("wind", self.wind)?;
+        Error::check_positive("calming wind", self.calming_wind)?;
+        Error::check_range("interval", self.interval, 1e-4, 0.1)?;
+        Ok(())
+    }
+}
+
+/// Makes falls of one body in one fluid, each from a seed.
+#[derive(Clone, Debug)]
+pub struct Synthesizer {
+    database: Arc<TrajectoryDatabase>,
+    params: SynthesisParams,
+    graph: MotionGraph,
+    main: Regime,
+    units: Units,
+    /// L/a.
+    aspect: f64,
+    /// Ω, rad/s, and amplitude, m.
+    frequency: f64,
+    amplitude: f64,
+}
+
+/// Keyframes that a path may have.
+const MOST_KEYS: f64 = 1e6;
+
+/// A level of the search: a pattern, and what it takes from the database.
+struct Level<'a> {
+    regime: Regime,
+    glide: Option<(Glide, &'a Entry, f64)>,
+    duration: f64,
+}
+
+impl Synthesizer {
+    /// For a body with these numbers and a longest extent of `length` m (the thesis's L; its a is the
+    /// numbers' chord).
+    ///
+    /// # Errors
+    /// Those of [`SynthesisParams::check`]; [`Error::InvalidParameter`] if the length is not positive or
+    /// the body does not sink; [`Error::OutOfRange`] if the fall would take more than a million
+    /// keyframes.
+    pub fn new(
+        numbers: &Numbers,
+        length: f64,
+        database: Arc<TrajectoryDatabase>,
+        params: SynthesisParams,
+    ) -> Result<Self, Error> {
+        params.check()?;
+        Error::check_positive("length", length)?;
+        let ratio = numbers.density_ratio;
+        Error::check("density ratio", ratio, ratio > 1.0, "above 1")?;
+        let descent = Error::check_positive("u0", numbers.u0)?;
+        let chord = Error::check_positive("chord", numbers.length)?;
+        let thickness = Error::check_positive("thickness", numbers.thickness)?;
+        let keys = params.height / descent / params.interval;
+        Error::check_range("keyframes", keys, 0.0, MOST_KEYS)?;
+        let main = params
+            .main
+            .unwrap_or_else(|| params.diagram.regime(numbers.reynolds_u0, numbers.i_star));
+        let aspect = length / chord;
+        let frequency = params.frequency * descent / chord;
+        let possible: Vec<bool> = Regime::ALL.iter().map(|r| *r <= main).collect();
+        let strength = params.wind / (params.calming_wind * descent);
+        Ok(Self {
+            database,
+            graph: calmed(&params.graph, (-strength * strength).exp())?.restricted(&possible)?,
+            main,
+            units: Units {
+                length: chord,
+                descent,
+                // U² = (ρ_s/ρ_f − 1) g t, and gravity less buoyancy is (1 − ρ_f/ρ_s) g.
+                weight: descent * descent / (thickness * ratio),
+            },
+            aspect,
+            frequency,
+            amplitude: params.swing * params.deviation.amplitude(aspect, descent, frequency),
+            params,
+        })
+    }
+
+    /// The regime that falls end in, if they are high enough.
+    pub fn main(&self) -> Regime {
+        self.main
+    }
+
+    /// The graph that is followed: without regimes beyond the main one, and with less tumbling in wind.
+    pub fn graph(&self) -> &MotionGraph {
+        &self.graph
+    }
+
+    /// U, m/s: mean speed of descent.
+    pub fn descent(&self) -> f64 {
+        self.units.descent
+    }
+
+    /// Amplitude of a regular flutter, and radius of a spiral, m.
+    pub fn amplitude(&self) -> f64 {
+        self.amplitude
+    }
+
+    /// A fall whose regimes the Markov chain draws, one transition per turning point. The same seed
+    /// gives the same fall.
+    ///
+    /// It lands at (r, −h, 0), r drawn from the [`Deviation`], less for the time that it falls steadily
+    /// (a tenth counts); whoever places it in the world turns it about the vertical.
+    pub fn path(&self, seed: u64) -> MotionPath {
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let mut state: Option<usize> = None;
+        self.fall(&mut random, |_, random| {
+            let next = match state {
+                None => self.graph.draw_start(random),
+                Some(state) => self.graph.draw_next(state, random),
+            };
+            state = Some(next);
+            Regime::ALL[next]
+        })
+    }
+
+    /// A fall of chosen regimes, each for an equal share of the time; a short fall does not come to the
+    /// last ones.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] if there is no regime.
+    pub fn path_through(&self, regimes: &[Regime], seed: u64) -> Result<MotionPath, Error> {
+        let Some(last) = regimes.last() else {
+            return Err(Error::WrongLength {
+                what: "regimes of the fall",
+                expected: 1,
+                actual: 0,
+            });
+        };
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let share = self.duration() / regimes.len() as f64;
+        Ok(self.fall(&mut random, |time, _| {
+            // The boundary nearest to a turning point.
+            let index = ((time + 0.25 * PI / self.frequency) / share) as usize;
+            *regimes.get(index).unwrap_or(last)
+        }))
+    }
+
+    /// Time of a fall, s: h/U.
+    fn duration(&self) -> f64 {
+        self.params.height / self.units.descent
+    }
+
+    fn fall(
+        &self,
+        random: &mut Pcg64Mcg,
+        regime: impl FnMut(f64, &mut Pcg64Mcg) -> Regime,
+    ) -> MotionPath {
+        let duration = self.duration();
+        let levels = self.levels(duration, regime, random);
+        let pieces = self.splice(&levels, random);
+        let drifts = Drifts::of(&pieces, self.params.blend * PI / self.frequency);
+        let distance = self
+            .params
+            .deviation
+            .draw(self.aspect, self.params.height, random)
+            * (drifts.until(duration).0 / duration);
+        let landing = Vector3::new(distance, -self.params.height, 0.0);
+        let at = |time: f64| {
+            let after = pieces.partition_point(|piece| piece.start <= time);
+            let piece = &pieces[after.max(1) - 1];
+            piece.at(time - piece.start, &self.units)
+        };
+        // What is left to the landing is spread over the fall.
+        let drift = (landing - at(duration).position) / drifts.until(duration).0;
+        let count = (duration / self.params.interval).ceil().max(1.0);
+        let interval = duration / count;
+        // Plate axes (long axis x, normal z) in the glide plane's (long axis z, normal y).
+        let axes = Matrix3::from_columns(&[Vector3::z(), Vector3::x(), Vector3::y()]);
+        let axes = Rotation3::from_matrix_unchecked(axes);
+        let axes = UnitQuaternion::from_rotation_matrix(&axes);
+        let keys = (0..=count as usize).map(|i| {
+            let time = i as f64 * interval;
+            let Instant {
+                position,
+                velocity,
+                attitude,
+            } = at(time);
+            let (drifted, share) = drifts.until(time);
+            Key {
+                position: to_real(position + drift * drifted),
+                velocity: to_real(velocity + drift * share),
+                attitude: to_rotation(attitude * axes),
+            }
+        });
+        let mut regimes: Vec<(Real, Regime)> = Vec::new();
+        for piece in &pieces {
+            if piece.start < duration && regimes.last().is_none_or(|(_, r)| *r != piece.regime) {
+                regimes.push((piece.start as Real, piece.regime));
+            }
+        }
+        MotionPath::new(interval as Real, keys.collect(), regimes)
+            .expect("finite parameters give finite keys")
+    }
+
+    /// Draws levels until the time is up.
+    fn levels(
+        &self,
+        duration: f64,
+        mut regime: impl FnMut(f64, &mut Pcg64Mcg) -> Regime,
+        random: &mut Pcg64Mcg,
+    ) -> Vec<Level<'_>> {
+        let regular = PI / self.frequency;
+        let unit = self.units.length / self.units.descent;
+        let tree = SearchTree {
+            feature: Vector2::new(2.0 * self.amplitude / self.units.length, -regular / unit),
+        };
+        let mut levels = Vec::new();
+        let mut time = 0.0;
+        let mut last = if random.random_bool(0.5) {
+            Glide::Left
+        } else {
+            Glide::Right
+        };
+        while time < duration {
+            let regime = regime(time, random);
+            let mut level = Level {
+                regime,
+                glide: None,
+                duration: regular,
+            };
+            if let Some(glide) = SearchTree::branch(regime, last, random) {
+                let scale = match regime {
+                    Regime::TransitionalChaotic => chaotic_factor(random),
+                    _ => 1.0,
+                };
+                let entry = tree.child(&self.database, glide, scale, random);
+                level.duration = entry.segment.duration() * unit;
+                level.glide = Some((glide, entry, scale));
+                last = glide;
+            }
+            time += level.duration;
+            levels.push(level);
+        }
+        levels
+    }
+
+    /// Puts levels end to end; what goes on in the same spiral, helix or straight fall is one piece.
+    fn splice<'a>(&'a self, levels: &[Level<'a>], random: &mut Pcg64Mcg) -> Vec<Piece<'a>> {
+        let blend = self.params.blend * PI / self.frequency;
+        let mut pieces: Vec<Piece<'a>> = Vec::new();
+        let mut start = 0.0;
+        let mut index = 0;
+        while index < levels.len() {
+            let level = &levels[index];
+            let mut duration = level.duration;
+            let course = if let Some((glide, entry, scale)) = level.glide {
+                // A body turns over where it glides on the same way, unless the glides are too short or
+                // too different: it would have to spin up or stop at once.
+                let over = |neighbour: Option<&Level>| {
+                    let neighbour = neighbour.and_then(|level| level.glide);
+                    neighbour.is_some_and(|(g, _, s)| {
+                        let (small, large) = (s.min(scale), s.max(scale));
+                        g == glide && small >= 0.5 && large <= 2.0 * small
+                    })
+                };
+                Course::Glide {
+                    segment: entry.segment,
+                    flutter: &self.database.flutter()[entry.flutter as usize],
+                    tumbling: &self.database.tumbling()[entry.tumbling as usize],
+                    swing: scale.min(1.0),
+                    over: [
+                        over(index.checked_sub(1).map(|i| &levels[i])),
+                        over(levels.get(index + 1)),
+                    ],
+                }
+            } else {
+                while levels
+                    .get(index + 1)
+                    .is_some_and(|l| l.regime == level.regime)
+                {
+                    index += 1;
+                    duration += levels[index].duration;
+                }
+                self.course(level.regime, random)
+            };
+            let before = pieces
+                .last()
+                .map(|piece: &Piece| piece.at(piece.duration, &self.units));
+            pieces.push(Piece::after(
+                before.as_ref(),
+                course,
+                level.regime,
+                start,
+                duration,
+                blend,
+                &self.units,
+            ));
+            start += duration;
+            index += 1;
+        }
+        pieces
+    }
+
+    /// What a regime without a search tree follows (3.8).
+    fn course<'a>(&self, regime: Regime, random: &mut Pcg64Mcg) -> Course<'a> {
+        let amplitude = self.amplitude;
+        let frequency = self.frequency / self.params.slowness;
+        let curve = match regime {
+            Regime::PeriodicSpiral => {
+                UnifiedCurve::spiral(amplitude, frequency, self.units.descent)
+            }
+            Regime::TransitionalHelix => UnifiedCurve::helix(
+                amplitude,
+                self.params.ellipticity,
+                frequency,
+                self.units.descent,
+            ),
+            _ => return Course::Straight,
+        };
+        let sense = if random.random_bool(0.5) { 1.0 } else { -1.0 };
+        Course::Curve { curve, sense }
+    }
+}
+
+/// The graph with tumbling and chaotic motion `share` times as likely to begin or go on.
+fn calmed(graph: &MotionGraph, share: f64) -> Result<MotionGraph, Error> {
+    let states = graph.states();
+    let calm = |p: f64, to: usize| match Regime::ALL[to] {
+        Regime::TransitionalChaotic | Regime::PeriodicTumbling => p * share,
+        _ => p,
+    };
+    let row = |of: &dyn Fn(usize) -> f64, fallback: usize| -> Vec<f64> {
+        let row: Vec<f64> = (0..states).map(|to| calm(of(to), to)).collect();
+        let sum: f64 = row.iter().sum();
+        if sum > 0.0 {
+            row.into_iter().map(|p| p / sum).collect()
+        } else {
+            (0..states)
+                .map(|to| f64::from(u8::from(to == fallback)))
+                .collect()
+        }
+    };
+    let rows = (0..states).map(|from| row(&|to| graph.probability(from, to), from));
+    MotionGraph::new(row(&|to| graph.start(to), 0), rows.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Fluid;
+    use crate::motion::Outline;
+    use crate::motion::path::motion_classes;
+
+    /// A leaf like the thesis's: 7.3 × 4.2 cm, 0.3 mm, 400 kg/m³.
+    fn leaf(params: SynthesisParams) -> Synthesizer {
+        let numbers =
+            Numbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81).unwrap();
+        Synthesizer::new(&numbers, 0.073, TrajectoryDatabase::shipped(), params).unwrap()
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_fall() {
+        let leaf = leaf(SynthesisParams::default());
+        assert_eq!(leaf.path(7), leaf.path(7));
+        assert_ne!(leaf.path(7), leaf.path(8));
+    }
+
+    /// Everything between keyframes is what the velocities say, for every motion class: positions follow
+    /// their velocities to second order (acceleration · interval²/12), and no attitude jumps.
+    #[test]
+    fn every_class_can_be_generated_and_is_smooth() {
+        let leaf = leaf(SynthesisParams {
+            height: 6.0,
+            main: Some(Regime::PeriodicSpiral),
+            interval: 1.0 / 480.0,
+            ..SynthesisParams::default()
+        });
+        let classes = motion_classes(Regime::PeriodicSpiral);
+        assert_eq!(classes.len(), 63);
+        for (seed, class) in classes.iter().enumerate() {
+            let path = leaf.path_through(class, seed as u64).unwrap();
+            assert_eq!(&path.sequence(), class);
+            let h = path.interval();
+            for pair in path.keys().windows(2) {
+                let mean = (pair[0].velocity + pair[1].velocity) * 0.5;
+                let jump = (pair[1].position - pair[0].position - mean * h).length();
+                // One percent of the smaller extent.
+                assert!(jump < 0.00042, "{class:?} {jump}");
+            }
+        }
+    }
+
+    /// A steady fall drifts a tenth as far as a flutter whose landing is drawn alike, and a fall of both
+    /// drifts in its second half: velocities are derivatives there too (the test above).
+    #[test]
+    fn steady_descent_hardly_drifts() {
+        let leaf = leaf(SynthesisParams {
+            deviation: Deviation {
+                width: 0.0,
+                ..Deviation::default()
+            },
+            main: Some(Regime::PeriodicFlutter),
+            ..SynthesisParams::default()
+        });
+        let at = |regimes: &[Regime], share: f32| {
+            let path = leaf.path_through(regimes, 1).unwrap();
+            path.at(path.duration() * share).position.x
+        };
+        let (sd, pf) = (Regime::SteadyDescent, Regime::PeriodicFlutter);
+        let landing = 0.3 * 0.073 / 0.042 * 2.0;
+        assert!((at(&[pf], 1.0) - landing).abs() < 1e-5);
+        assert!((at(&[sd], 1.0) - 0.1 * landing).abs() < 1e-5);
+        let half = at(&[sd, pf], 0.5);
+        // The regimes change at the turning point nearest to the middle, an eighth of a second away.
+        assert!(half.abs() < 0.15 * landing, "{half}");
+    }
+
+    #[test]
+    fn impossible_requests_are_refused() {
+        let numbers =
+            Numbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81).unwrap();
+        let refused = |change: &dyn Fn(&mut SynthesisParams)| {
+            let mut params = SynthesisParams::default();
+            change(&mut params);
+            let database = TrajectoryDatabase::shipped();
+            assert!(Synthesizer::new(&numbers, 0.073, database, params).is_err());
+        };
+        refused(&|p| p.height = 0.0);
+        refused(&|p| p.height = f64::NAN);
+        refused(&|p| p.height = 1e9);
+        refused(&|p| p.graph = MotionGraph::thesis());
+        refused(&|p| p.deviation.width = -1.0);
+        refused(&|p| p.interval = 0.0);
+        refused(&|p| p.wind = f64::INFINITY);
+        let light = Numbers::new(Outline::Round, 0.04, 3e-4, 400.0, &Fluid::WATER, 9.81).unwrap();
+        let params = SynthesisParams::default();
+        let database = TrajectoryDatabase::shipped();
+        assert!(Synthesizer::new(&light, 0.073, database, params).is_err());
+        assert!(
+            leaf(SynthesisParams::default())
+                .path_through(&[], 1)
+                .is_err()
+        );
+    }
+}
