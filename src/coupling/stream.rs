@@ -68,17 +68,18 @@ impl Local {
         // A state of zero dissipation (or a wild one, from a table of the user's) stirs nothing.
         let c0 = if c0.is_finite() { c0 } else { 0.0 };
         let eddies = Eddies::new(&state, c0, dt);
-        let share = eddies.decay / AVERAGED;
         Self {
             state,
             c0,
             eddies,
-            weight: share / (1.0 + share),
+            // share/(1 + share), also where the share is infinite.
+            weight: 1.0 - 1.0 / (1.0 + eddies.decay / AVERAGED),
         }
     }
 }
 
 /// What one step of turbulence does to a body.
+#[derive(Default)]
 struct Gust {
     /// Fluctuation of the fluid's velocity, m/s.
     fluctuation: Vector,
@@ -123,11 +124,7 @@ impl<'a> Step<'a> {
             Local::new(state, self.viscosity, self.dt)
         });
         let first_draw = noise.vector(self.number, 0);
-        let mut gust = Gust {
-            fluctuation: Vector::ZERO,
-            linear: Vector::ZERO,
-            angular: Vector::ZERO,
-        };
+        let mut gust = Gust::default();
         match self.layer.mode {
             LangevinMode::FluidSeen => {
                 if first {
@@ -154,11 +151,7 @@ impl<'a> Step<'a> {
         }
         let whole = gust.fluctuation + gust.linear + gust.angular;
         if !whole.is_finite() {
-            return Gust {
-                fluctuation: Vector::ZERO,
-                linear: Vector::ZERO,
-                angular: Vector::ZERO,
-            };
+            gust = Gust::default();
         }
         stirred.fluctuation = gust.fluctuation;
         gust
