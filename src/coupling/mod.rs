@@ -10,6 +10,7 @@ mod immersion;
 mod kind;
 mod original;
 mod playback;
+mod played;
 mod player;
 mod players;
 pub mod preset;

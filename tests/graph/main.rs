@@ -1,5 +1,7 @@
 //! Graph-based synthesis: what falls that are put together from segments must keep to.
 
+mod players;
+
 use rapier3d_immersed::Fluid;
 use rapier3d_immersed::motion::path::{
     HorizontalShape, MotionPath, SynthesisParams, Synthesizer, TrajectoryDatabase,
