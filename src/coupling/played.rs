@@ -121,6 +121,9 @@ impl Slot {
             _ => {}
         }
         self.taken = true;
+        if !body.is_fast_rotation_allowed() {
+            body.set_allow_fast_rotation(true);
+        }
         // Where the path was before this step's wind: the wind's displacement is not an error.
         let from = self.origin + self.now.0;
         let lean = self.blow(wind, step);

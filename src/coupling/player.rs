@@ -12,7 +12,8 @@ pub enum Drive {
     /// path the body becomes dynamic.
     Kinematic,
     /// By its velocity, every step anew; for dynamic bodies. What contacts displace comes back within
-    /// about `compliance` seconds; zero is at once.
+    /// about `compliance` seconds; zero is at once. The body may turn by more than 45° per step from
+    /// then on, as tumbling leaves do.
     Velocity {
         /// Time constant, s.
         compliance: Real,

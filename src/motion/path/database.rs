@@ -33,7 +33,11 @@ pub struct TrajectoryDatabase {
     classes: Vec<Vector2<f64>>,
     flutter: Vec<AngleCurve>,
     tumbling: Vec<AngleCurve>,
-    index: RTree<GeomWithData<[f64; 2], u32>>,
+    /// Segments of each class, by place.
+    index: Vec<RTree<GeomWithData<[f64; 2], u32>>>,
+    /// Mean place of each class.
+    centers: Vec<[f64; 2]>,
+    flattest: f64,
 }
 
 impl PartialEq for TrajectoryDatabase {
@@ -114,12 +118,26 @@ impl TrajectoryDatabase {
                 tumbling.len(),
             )?;
         }
-        let points = entries
-            .iter()
-            .enumerate()
-            .map(|(index, entry)| GeomWithData::new(place(&entry.segment.feature()), index as u32));
+        let mut members = vec![Vec::new(); classes.len()];
+        let mut flattest = std::f64::consts::FRAC_PI_2;
+        for (index, entry) in entries.iter().enumerate() {
+            let feature = entry.segment.feature();
+            let point = GeomWithData::new(place(&feature), index as u32);
+            members[entry.class as usize].push(point);
+            flattest = flattest.min((-feature.y).atan2(feature.x.abs()));
+        }
+        let mut centers = Vec::with_capacity(classes.len());
+        for (class, members) in members.iter().enumerate() {
+            let count = members.len() as f64;
+            let some = !members.is_empty();
+            Error::check("class of the database", class as f64, some, "of a segment")?;
+            let sum = |axis: usize| members.iter().map(|p| p.geom()[axis]).sum::<f64>();
+            centers.push([sum(0) / count, sum(1) / count]);
+        }
         Ok(Self {
-            index: RTree::bulk_load(points.collect()),
+            index: members.into_iter().map(RTree::bulk_load).collect(),
+            centers,
+            flattest,
             entries,
             classes,
             flutter,
@@ -159,14 +177,37 @@ impl TrajectoryDatabase {
         &self.tumbling
     }
 
-    /// The segment whose feature vector is nearest, by ratio of lengths; of several with the same
-    /// feature vector (they differ in A_y) one is drawn.
-    pub fn nearest(&self, feature: Vector2<f64>, random: &mut impl Rng) -> &Entry {
-        let nearest = self.index.nearest_neighbor(place(&feature));
-        let nearest = nearest.expect("a database has at least one segment");
-        let mut equal: Vec<u32> = self
-            .index
-            .locate_all_at_point(*nearest.geom())
+    /// Angle to the horizontal of the flattest feature vector, rad.
+    pub fn flattest(&self) -> f64 {
+        self.flattest
+    }
+
+    /// The class of a feature vector: the one whose mean is nearest, by ratio of lengths.
+    pub fn class_of(&self, feature: Vector2<f64>) -> u32 {
+        let here = place(&feature);
+        let distance = |center: &[f64; 2]| (center[0] - here[0]).hypot(center[1] - here[1]);
+        let mut best = 0;
+        for (class, center) in self.centers.iter().enumerate() {
+            if distance(center) < distance(&self.centers[best]) {
+                best = class;
+            }
+        }
+        best as u32
+    }
+
+    /// A segment of the class of a feature vector: drawn among the share `variety` ∈ [0, 1] of the class
+    /// that is nearest to the vector by ratio of lengths. With 0 it is the nearest; of several with the
+    /// same feature vector (they differ in A_y) one is drawn.
+    pub fn find(&self, feature: Vector2<f64>, variety: f64, random: &mut impl Rng) -> &Entry {
+        let index = &self.index[self.class_of(feature) as usize];
+        let near = (variety * index.size() as f64) as usize;
+        let rank = random.random_range(0..near.clamp(1, index.size()));
+        let place = place(&feature);
+        let drawn = index.nearest_neighbor_iter(place).nth(rank);
+        let drawn =
+            drawn.expect("a class has at least one segment, and the rank is below its size");
+        let mut equal: Vec<u32> = index
+            .locate_all_at_point(*drawn.geom())
             .map(|point| point.data)
             .collect();
         equal.sort_unstable();
@@ -276,22 +317,71 @@ mod tests {
         assert!(database.entries().len() > 1000);
     }
 
-    /// The index against looking at every segment.
-    #[test]
-    fn the_nearest_is_the_nearest() {
-        let database = TrajectoryDatabase::shipped();
+    fn distance(a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
+        let (a, b) = (place(a), place(b));
+        (a[0] - b[0]).hypot(a[1] - b[1])
+    }
+
+    fn queries() -> impl Iterator<Item = Vector2<f64>> {
         let mut random = Pcg64Mcg::seed_from_u64(3);
-        let distance = |a: &Vector2<f64>, b: &Vector2<f64>| {
-            let (a, b) = (place(a), place(b));
-            (a[0] - b[0]).hypot(a[1] - b[1])
-        };
-        for _ in 0..200 {
+        (0..200).map(move |_| {
             let across = random.random_range(-4.0..4.0);
-            let feature = Vector2::new(across, -random.random_range(0.1..20.0));
-            let found = database.nearest(feature, &mut random).segment.feature();
-            let all = database.entries().iter().map(|e| e.segment.feature());
-            let least = all.map(|f| distance(&f, &feature)).fold(f64::MAX, f64::min);
-            assert_eq!(distance(&found, &feature), least);
+            Vector2::new(across, -random.random_range(0.1..20.0))
+        })
+    }
+
+    /// The index of a class against looking at every segment of it.
+    #[test]
+    fn the_nearest_of_the_class_is_found() {
+        let database = TrajectoryDatabase::shipped();
+        let mut random = Pcg64Mcg::seed_from_u64(4);
+        for feature in queries() {
+            let class = database.class_of(feature);
+            let found = database.find(feature, 0.0, &mut random);
+            assert_eq!(found.class, class);
+            let members = database.entries().iter().filter(|e| e.class == class);
+            let distances = members.map(|e| distance(&e.segment.feature(), &feature));
+            let least = distances.fold(f64::MAX, f64::min);
+            assert_eq!(distance(&found.segment.feature(), &feature), least);
+        }
+    }
+
+    /// What is drawn is of the query's class and among its nearest, and all of them come up; with
+    /// variety 1 any segment of the class may.
+    #[test]
+    fn variety_draws_within_the_class() {
+        let database = TrajectoryDatabase::shipped();
+        let mut random = Pcg64Mcg::seed_from_u64(5);
+        for feature in queries().take(8) {
+            let class = database.class_of(feature);
+            let members = database.entries().iter().filter(|e| e.class == class);
+            let mut distances: Vec<f64> = members
+                .map(|e| distance(&e.segment.feature(), &feature))
+                .collect();
+            distances.sort_by(f64::total_cmp);
+            for variety in [0.1, 1.0] {
+                let count = (variety * distances.len() as f64) as usize;
+                let mut seen = std::collections::BTreeSet::new();
+                for _ in 0..6000 {
+                    let found = database.find(feature, variety, &mut random);
+                    assert_eq!(found.class, class);
+                    let away = distance(&found.segment.feature(), &feature);
+                    assert!(away <= distances[count - 1]);
+                    seen.insert(away.to_bits());
+                }
+                let mut near: Vec<u64> = distances[..count].iter().map(|d| d.to_bits()).collect();
+                near.dedup();
+                assert_eq!(seen.len(), near.len());
+            }
+        }
+    }
+
+    /// The classes are those of K-means: every segment is nearest to the mean of its own.
+    #[test]
+    fn segments_belong_to_their_class() {
+        let database = TrajectoryDatabase::shipped();
+        for entry in database.entries() {
+            assert_eq!(database.class_of(entry.segment.feature()), entry.class);
         }
     }
 
@@ -351,6 +441,7 @@ mod tests {
         refused(&|d| d.classes.clear());
         refused(&|d| d.flutter.clear());
         refused(&|d| d.entries[1].class = 1);
+        refused(&|d| d.classes.push(Vector2::new(1.0, -1.0)));
         refused(&|d| d.entries[1].tumbling = 7);
         refused(&|d| d.entries[0].segment.flutter.frequency = 0.0);
         refused(&|d| d.entries[0].segment.flutter.horizontal = f64::NAN);

@@ -1,56 +1,88 @@
 //! The levels of a fall's search, and the pieces that they make when they are put end to end.
 
-use super::amplitude::chaotic_factor;
+use super::amplitude::{SMALLEST_FACTOR, chaotic_factor};
 use super::curve::UnifiedCurve;
 use super::database::Entry;
-use super::piece::{Course, Piece};
+use super::piece::{Course, Instant, Piece};
 use super::search_tree::SearchTree;
 use super::segment::Glide;
 use super::synthesis::Synthesizer;
 use crate::motion::Regime;
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
-use rapier3d::na::Vector2;
+use rapier3d::na::{UnitQuaternion, Vector2, Vector3};
 use std::f64::consts::PI;
 
 /// A level of the search: a pattern, and what it takes from the database.
 pub(super) struct Level<'a> {
     regime: Regime,
     glide: Option<(Glide, &'a Entry, f64)>,
+    /// s.
     duration: f64,
+    /// Factor on the lengths and times of its segment.
+    stretch: f64,
 }
 
 impl Synthesizer {
-    /// Draws levels until the time is up.
+    /// Draws levels until the time is up, and stretches them to end with it: a fall lands at a turning
+    /// point. There the height is that of a steady descent, between them it is not, so that a segment
+    /// cut short would make all the others too fast or too slow.
+    ///
+    /// `regime` gives the regime that follows at a time and when, at the latest, another one shall.
     pub(super) fn levels(
         &self,
         duration: f64,
-        mut regime: impl FnMut(f64, &mut Pcg64Mcg) -> Regime,
+        mut regime: impl FnMut(f64, &mut Pcg64Mcg) -> (Regime, f64),
         random: &mut Pcg64Mcg,
     ) -> Vec<Level<'_>> {
         let regular = PI / self.frequency;
         let unit = self.units.length / self.units.descent;
-        let tree = SearchTree {
-            feature: Vector2::new(2.0 * self.amplitude / self.units.length, -regular / unit),
+        let feature = Vector2::new(2.0 * self.amplitude / self.units.length, -regular / unit);
+        let tree = |feature| SearchTree {
+            feature,
+            variety: self.params.variety,
         };
-        let mut levels = Vec::new();
+        let regular_tree = tree(feature);
+        // V_0 of thesis § 3.3.5.
+        let released = tree(match self.params.release_angle {
+            Some(angle) => {
+                let angle = angle.abs().max(self.database.flattest());
+                Vector2::new(angle.cos(), -angle.sin()) * feature.norm()
+            }
+            None => feature,
+        });
+        let mut levels: Vec<Level<'_>> = Vec::new();
         let mut time = 0.0;
-        let mut last = if random.random_bool(0.5) {
-            Glide::Left
-        } else {
-            Glide::Right
+        let mut last = match self.params.release_angle {
+            Some(angle) if angle != 0.0 => Glide::toward(angle),
+            _ if random.random_bool(0.5) => Glide::Left,
+            _ => Glide::Right,
         };
-        while time < duration {
-            let regime = regime(time, random);
+        while levels.is_empty() || duration - time > 0.5 * regular {
+            let (regime, until) = regime(time, random);
             let mut level = Level {
                 regime,
                 glide: None,
                 duration: regular,
+                stretch: 1.0,
             };
-            if let Some(glide) = SearchTree::branch(regime, last, random) {
+            let first = levels.iter().all(|level| level.glide.is_none());
+            let branch = match self.params.release_angle {
+                // The first glide is toward the edge that is low at the release.
+                Some(_) if first => regime.has_search_tree().then_some(last),
+                _ => SearchTree::branch(regime, last, random),
+            };
+            if let Some(glide) = branch {
+                // No segment of a chaotic fall is longer than what is left for it.
+                let most = ((until.min(duration) - time) / regular).max(SMALLEST_FACTOR);
                 let scale = match regime {
-                    Regime::TransitionalChaotic => chaotic_factor(random),
+                    Regime::TransitionalChaotic => chaotic_factor(random).min(most),
                     _ => 1.0,
+                };
+                let tree = match regime {
+                    Regime::TransitionalChaotic => &released,
+                    _ if first => &released,
+                    _ => &regular_tree,
                 };
                 let entry = tree.child(&self.database, glide, scale, random);
                 level.duration = entry.segment.duration() * unit;
@@ -59,6 +91,11 @@ impl Synthesizer {
             }
             time += level.duration;
             levels.push(level);
+        }
+        let stretch = duration / time;
+        for level in &mut levels {
+            level.duration *= stretch;
+            level.stretch = stretch;
         }
         levels
     }
@@ -88,6 +125,7 @@ impl Synthesizer {
                 };
                 Course::Glide {
                     segment: entry.segment,
+                    stretch: level.stretch,
                     flutter: &self.database.flutter()[entry.flutter as usize],
                     tumbling: &self.database.tumbling()[entry.tumbling as usize],
                     swing: scale.min(1.0),
@@ -106,9 +144,10 @@ impl Synthesizer {
                 }
                 self.course(level.regime, random)
             };
-            let before = pieces
-                .last()
-                .map(|piece: &Piece| piece.at(piece.duration, &self.units));
+            let before = match pieces.last() {
+                Some(piece) => Some(piece.at(piece.duration, &self.units)),
+                None => self.release(&course, duration),
+            };
             pieces.push(Piece::after(
                 before.as_ref(),
                 course,
@@ -122,6 +161,15 @@ impl Synthesizer {
             index += 1;
         }
         pieces
+    }
+
+    /// The release: the chord at the release angle, velocity and place as the first stretch has them.
+    fn release(&self, first: &Course, duration: f64) -> Option<Instant> {
+        let angle = self.params.release_angle?;
+        Some(Instant {
+            attitude: UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -angle),
+            ..first.at(0.0, duration, &self.units)
+        })
     }
 
     /// What a regime without a search tree follows (3.8).

@@ -30,6 +30,15 @@ pub struct SynthesisParams {
     pub ellipticity: f64,
     /// How long a splice takes, in half periods π/Ω. Default 0.5.
     pub blend: f64,
+    /// Angle of the chord to the horizontal at the release, rad, positive with the edge toward +x down:
+    /// the body is let go so, glides toward its lower edge, and the feature vector V_0 of thesis § 3.3.5,
+    /// of the first glide and of all chaotic ones, has this orientation (our reading: along the chord;
+    /// no flatter than the flattest segment of the database). `None` (the default) for the attitude that
+    /// the first pattern begins with, either way, and the V_0 that amplitude and frequency give.
+    pub release_angle: Option<f64>,
+    /// Share of a K-means class among which a segment is drawn, the nearest of it first: 0 takes the
+    /// nearest, 1 any of its class. Default 0.05: no two swings of a fall are alike.
+    pub variety: f64,
     /// Mean wind, m/s: tumbling and chaotic motion become rarer in it. Default 0.
     pub wind: f64,
     /// Wind, in U, at which they are e times rarer; their share falls as exp(−(wind/(this·U))²). Default
@@ -52,6 +61,8 @@ impl Default for SynthesisParams {
             slowness: 3.0,
             ellipticity: 0.3,
             blend: 0.5,
+            release_angle: None,
+            variety: 0.05,
             wind: 0.0,
             calming_wind: 1.5,
             interval: 1.0 / 120.0,
@@ -74,6 +85,11 @@ impl SynthesisParams {
         Error::check_positive("slowness", self.slowness)?;
         Error::check_range("ellipticity", self.ellipticity, 0.0, 10.0)?;
         Error::check_range("blend", self.blend, 1e-3, 10.0)?;
+        if let Some(angle) = self.release_angle {
+            let most = std::f64::consts::FRAC_PI_2;
+            Error::check_range("release angle", angle, -most, most)?;
+        }
+        Error::check_range("variety", self.variety, 0.0, 1.0)?;
         Error::check_not_negative("wind", self.wind)?;
         Error::check_positive("calming wind", self.calming_wind)?;
         Error::check_range("interval", self.interval, 1e-4, 0.1)?;

@@ -104,8 +104,8 @@ impl Synthesizer {
     /// A fall whose regimes the Markov chain draws, one transition per turning point. The same seed
     /// gives the same fall.
     ///
-    /// It lands at (r, −h, 0), r drawn from the [`Deviation`], less for the time that it falls steadily
-    /// (a tenth counts); whoever places it in the world turns it about the vertical.
+    /// It takes h/U and lands at a turning point, at (r, −h, s), r and s drawn from the
+    /// [`Deviation`](super::Deviation), less for the time that it falls steadily (a tenth counts); whoever places it in the world turns it about the vertical.
     pub fn path(&self, seed: u64) -> MotionPath {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let mut state: Option<usize> = None;
@@ -115,7 +115,7 @@ impl Synthesizer {
                 Some(state) => self.graph.draw_next(state, random),
             };
             state = Some(next);
-            Regime::ALL[next]
+            (Regime::ALL[next], f64::INFINITY)
         })
     }
 
@@ -137,7 +137,10 @@ impl Synthesizer {
         Ok(self.fall(&mut random, |time, _| {
             // The boundary nearest to a turning point.
             let index = ((time + 0.25 * PI / self.frequency) / share) as usize;
-            *regimes.get(index).unwrap_or(last)
+            (
+                *regimes.get(index).unwrap_or(last),
+                (index + 1) as f64 * share,
+            )
         }))
     }
 
@@ -149,24 +152,22 @@ impl Synthesizer {
     fn fall(
         &self,
         random: &mut Pcg64Mcg,
-        regime: impl FnMut(f64, &mut Pcg64Mcg) -> Regime,
+        regime: impl FnMut(f64, &mut Pcg64Mcg) -> (Regime, f64),
     ) -> MotionPath {
         let duration = self.duration();
         let levels = self.levels(duration, regime, random);
         let pieces = self.splice(&levels, random);
         let drifts = Drifts::of(&pieces, self.params.blend * PI / self.frequency);
-        let distance = self
-            .params
-            .deviation
-            .draw(self.aspect, self.params.height, random)
-            * (drifts.until(duration).0 / duration);
-        let landing = Vector3::new(distance, -self.params.height, 0.0);
+        let deviation = &self.params.deviation;
+        let drawn = deviation.draw(self.aspect, self.params.height, random);
+        let [along, across] = drawn.map(|r| r * (drifts.until(duration).0 / duration));
+        let landing = Vector3::new(along, -self.params.height, across);
         let at = |time: f64| {
             let after = pieces.partition_point(|piece| piece.start <= time);
             let piece = &pieces[after.max(1) - 1];
             piece.at(time - piece.start, &self.units)
         };
-        // What is left to the landing is spread over the fall.
+        // What is left to the landing is spread over the fall; it is level but for rounding.
         let drift = (landing - at(duration).position) / drifts.until(duration).0;
         let count = (duration / self.params.interval).ceil().max(1.0);
         let interval = duration / count;
