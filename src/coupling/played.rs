@@ -3,7 +3,7 @@
 use super::player::{AtContact, Drive, MotionPlayer};
 use crate::motion::path::{MotionPath, WindResponse};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodyType};
-use rapier3d::geometry::NarrowPhase;
+use rapier3d::geometry::{ActiveCollisionTypes, ColliderSet, NarrowPhase};
 use rapier3d::math::{Pose, Real, Rotation, Vector};
 use std::sync::Arc;
 
@@ -26,9 +26,25 @@ pub(super) struct Slot {
     pub taken: bool,
     /// Velocity taken from the wind, m/s.
     pub blown: Vector,
+    /// What a contact left of a kinematic body's own motion.
+    pub astray: Option<Astray>,
+    /// Whether its colliders have been told to look for contacts that rapier leaves out.
+    pub watched: bool,
     /// The path at `clock`, turned: position from the origin, and attitude of the body's frame.
     pub now: (Vector, Rotation),
 }
+
+/// How a kinematic body differs from its path after a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Astray {
+    /// Rotation vector from the path's attitude, rad.
+    pub rotation: Vector,
+    /// Velocity relative to the path's, m/s.
+    pub velocity: Vector,
+}
+
+/// Time in which such differences fade, s: the default compliance.
+const ASTRAY: Real = 0.1;
 
 /// What is the same for all bodies in a step.
 pub(super) struct Step {
@@ -56,6 +72,25 @@ impl Slot {
             waiting: false,
             taken: false,
             blown: Vector::ZERO,
+            astray: None,
+            watched: false,
+        }
+    }
+
+    /// Lets rapier look for contacts of a kinematic body with all kinds of bodies: by default it leaves
+    /// out those with fixed and kinematic ones, which move neither.
+    #[cold]
+    pub fn watch(&mut self, body: &RigidBody, colliders: &mut ColliderSet) {
+        self.watched = true;
+        if self.drive != Drive::Kinematic || self.at_contact == AtContact::Ignore {
+            return;
+        }
+        for handle in body.colliders() {
+            if let Some(collider) = colliders.get_mut(*handle) {
+                let others = ActiveCollisionTypes::KINEMATIC_FIXED
+                    | ActiveCollisionTypes::KINEMATIC_KINEMATIC;
+                collider.set_active_collision_types(collider.active_collision_types() | others);
+            }
         }
     }
 
@@ -70,24 +105,87 @@ impl Slot {
     ) -> bool {
         match self.drive {
             Drive::Kinematic if body.body_type() == RigidBodyType::KinematicPositionBased => {
-                self.taken = true;
-                let lean = self.blow(wind, step);
-                self.proceed(step.dt);
-                let rotation = leaning(lean, self.now.1);
-                let com = self.origin + self.now.0;
-                let origin = com - rotation * body.local_center_of_mass();
-                body.set_next_kinematic_position(Pose::from_parts(origin, rotation));
+                if self.at_contact != AtContact::Ignore && touches(body, narrow_phase) {
+                    self.let_go(body, step.dt);
+                    return self.at_contact != AtContact::HandOver;
+                }
+                self.carry(body, wind, step);
                 let done = self.clock >= self.path.duration();
                 if done {
                     body.set_body_type(RigidBodyType::Dynamic, true);
                 }
                 !done
             }
+            Drive::Kinematic if self.waiting && body.is_dynamic() => {
+                self.free = match touches(body, narrow_phase) {
+                    true => 0.0,
+                    false => self.free + step.dt,
+                };
+                let after = match self.at_contact {
+                    AtContact::Resume { after } => after,
+                    _ => 0.0,
+                };
+                if self.free > after {
+                    self.take_up(body);
+                    self.carry(body, wind, step);
+                }
+                true
+            }
             Drive::Velocity { compliance } if body.is_dynamic() => {
                 self.drive(body, narrow_phase, compliance, wind, step)
             }
             _ => true,
         }
+    }
+
+    /// Moves a kinematic body to where the path is at the end of the step.
+    #[inline]
+    fn carry(&mut self, body: &mut RigidBody, wind: Option<Vector>, step: &Step) {
+        self.taken = true;
+        let lean = self.blow(wind, step);
+        self.proceed(step.dt);
+        let mut rotation = leaning(lean, self.now.1);
+        if let Some(astray) = &mut self.astray {
+            let left = ASTRAY / (ASTRAY + step.dt);
+            astray.rotation *= left;
+            astray.velocity *= left;
+            self.origin += astray.velocity * step.dt;
+            rotation = Rotation::from_scaled_axis(astray.rotation) * rotation;
+            if astray.rotation.length() < 1e-4 && astray.velocity.length() < 1e-4 {
+                self.astray = None;
+            }
+        }
+        let com = self.origin + self.now.0;
+        let origin = com - rotation * body.local_center_of_mass();
+        body.set_next_kinematic_position(Pose::from_parts(origin, rotation.normalize()));
+    }
+
+    /// Makes a kinematic body dynamic, with the velocities that it has on its path.
+    fn let_go(&mut self, body: &mut RigidBody, dt: Real) {
+        // Rapier keeps the velocities of the last step's displacement; in the first step there is none.
+        if self.clock == 0.0 {
+            let next = self.path.at(dt);
+            let attitude = self.turn * next.attitude * self.to_plate;
+            body.set_linvel(self.turn * self.path.at(0.0).velocity, true);
+            body.set_angvel(vector(attitude * self.now.1.inverse()) / dt, true);
+        }
+        body.set_body_type(RigidBodyType::Dynamic, true);
+        (self.waiting, self.taken, self.free) = (true, false, 0.0);
+        self.astray = None;
+    }
+
+    /// Makes a body kinematic again that nothing touches any more: its path goes on from where it is, and
+    /// with its attitude and velocity at first.
+    fn take_up(&mut self, body: &mut RigidBody) {
+        self.waiting = false;
+        self.anchor(*body.position() * body.local_center_of_mass());
+        let path = self.turn * self.path.at(self.clock).velocity + self.blown;
+        let away = *body.rotation() * self.now.1.inverse();
+        self.astray = Some(Astray {
+            rotation: away.to_scaled_axis(),
+            velocity: body.linvel() - path,
+        });
+        body.set_body_type(RigidBodyType::KinematicPositionBased, true);
     }
 
     fn drive(

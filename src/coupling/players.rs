@@ -145,6 +145,9 @@ impl MotionPlayers {
                 self.finished.push(slot.handle);
                 continue;
             };
+            if !slot.watched {
+                slot.watch(body, sets.colliders);
+            }
             let wind = step.angle.map(|_| self.samples[index].velocity);
             let was_taken = slot.taken;
             if !slot.advance(body, sets.narrow_phase, wind, &step) {

@@ -1,5 +1,6 @@
 //! Graph-based synthesis: what falls that are put together from segments must keep to.
 
+mod kinematic;
 mod landing;
 mod players;
 mod release;

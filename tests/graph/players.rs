@@ -9,12 +9,12 @@ use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
 use std::sync::Arc;
 
-fn path(regimes: &[Regime], height: f64) -> Arc<MotionPath> {
+pub fn path(regimes: &[Regime], height: f64) -> Arc<MotionPath> {
     let leaf = leaf(up_to(Regime::PeriodicSpiral, height));
     Arc::new(leaf.path_through(regimes, 5).unwrap())
 }
 
-fn world(player: &MotionPlayer, height: Real) -> (PhysicsWorld, RigidBodyHandle) {
+pub fn world(player: &MotionPlayer, height: Real) -> (PhysicsWorld, RigidBodyHandle) {
     let mut world = PhysicsWorld::new();
     let body = match player.drive {
         Drive::Kinematic => RigidBodyBuilder::kinematic_position_based(),
