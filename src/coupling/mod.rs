@@ -15,6 +15,8 @@ mod player;
 mod players;
 pub mod preset;
 mod readout;
+#[cfg(feature = "serde-serialize")]
+mod snapshot;
 mod step;
 mod stream;
 mod wing;

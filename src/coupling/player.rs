@@ -7,6 +7,10 @@ use std::sync::Arc;
 
 /// How a body is made to follow its path.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub enum Drive {
     /// By its position; for position-based kinematic bodies, which follow exactly and push others away.
     ///
@@ -28,6 +32,10 @@ pub enum Drive {
 
 /// What a contact does to a body that plays a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub enum AtContact {
     /// The body is played no more. If it is immersed, the force model takes over, otherwise rapier
     /// alone. The default.
@@ -96,11 +104,24 @@ impl MotionPlayer {
         Error::check_finite("heading", self.heading.into())?;
         let norm = f64::from(self.axes.length());
         Error::check("norm of the axes", norm, (norm - 1.0).abs() < 1e-3, "1")?;
-        if let Drive::Velocity { compliance } = self.drive {
-            Error::check_not_negative("compliance", compliance.into())?;
+        self.drive.check()?;
+        self.at_contact.check()
+    }
+}
+
+impl Drive {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if let Self::Velocity { compliance } = self {
+            Error::check_not_negative("compliance", (*compliance).into())?;
         }
-        if let AtContact::Resume { after } = self.at_contact {
-            Error::check_not_negative("after", after.into())?;
+        Ok(())
+    }
+}
+
+impl AtContact {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if let Self::Resume { after } = self {
+            Error::check_not_negative("after", (*after).into())?;
         }
         Ok(())
     }

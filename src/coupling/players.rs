@@ -25,12 +25,21 @@ pub enum Playing {
 ///
 /// [`MotionPlayers::before_step`] goes before [`Immersion::before_step`]. A body that is also immersed
 /// is out of the fluid's hands while it is played. Bodies that are removed from rapier are forgotten.
+///
+/// With the feature `serde-serialize` a snapshot holds all but the wind, which is set again; bodies then
+/// go on bit by bit as they would have. Loading refuses what cannot be: another version, numbers that
+/// are not finite, paths that are not there.
 #[derive(Clone, Default)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Deserialize),
+    serde(try_from = "super::snapshot::PlayersSnapshot<crate::motion::path::MotionPath>")
+)]
 pub struct MotionPlayers {
-    slots: Vec<Slot>,
-    lookup: HashMap<RigidBodyHandle, u32>,
+    pub(super) slots: Vec<Slot>,
+    pub(super) lookup: HashMap<RigidBodyHandle, u32>,
     wind: Option<(Arc<dyn Flow>, WindResponse)>,
-    time: f64,
+    pub(super) time: f64,
     points: Vec<Vector>,
     samples: Vec<FlowSample>,
     finished: Vec<RigidBodyHandle>,

@@ -4,6 +4,8 @@ mod kinematic;
 mod landing;
 mod players;
 mod release;
+#[cfg(feature = "serde-serialize")]
+mod snapshot;
 
 use rapier3d_immersed::Fluid;
 use rapier3d_immersed::motion::path::{
