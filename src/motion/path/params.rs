@@ -2,6 +2,7 @@
 
 use super::amplitude::Deviation;
 use crate::Error;
+use crate::motion::phase_diagram::Case;
 use crate::motion::{MotionGraph, PhaseDiagram, Regime};
 
 /// How falls are synthesized.
@@ -71,6 +72,16 @@ impl Default for SynthesisParams {
 }
 
 impl SynthesisParams {
+    /// Falls in the regime that a [case of the thesis](PhaseDiagram::THESIS_CASES) shows at the numbers
+    /// that it prints, whatever the diagram says of those that are computed for the body. Two of its
+    /// three bodies have quite other numbers, and its coin lies just beyond flutter.
+    pub fn of_case(case: &Case) -> Self {
+        Self {
+            main: Some(case.regime),
+            ..Self::default()
+        }
+    }
+
     /// # Errors
     /// [`Error::InvalidParameter`] or [`Error::OutOfRange`] names the value that cannot be;
     /// [`Error::WrongLength`] if the graph has other than six states.
