@@ -109,8 +109,9 @@ pub fn draw(
         "y, m",
     )
     .equal();
-    panel.window = Some([(-2.15, 2.15), (-0.08, 2.15)]);
-    let ground = vec![(-2.15, 0.0), (2.15, 0.0)];
+    let xs = || trails.iter().flatten().map(|((x, _), _)| *x);
+    let ends = [xs().fold(-1.0, f64::min), xs().fold(1.0, f64::max)];
+    let ground = ends.map(|x| (1.05 * x, 0.0)).to_vec();
     panel.items.push(Item::Dots(released, CROWN, 7));
     panel.items.push(Item::Line(ground, GROUND, 4));
     for [[ax, ay], [bx, by]] in TWIGS.into_iter().chain([[[0.0, 0.0], [0.0, 1.7]]]) {

@@ -58,11 +58,46 @@ fn the_worked_bodies() {
         } else {
             assert_eq!(regime, case.regime);
         }
-        let height = 3.1;
-        let params = up_to(case.regime, height);
-        let fall = leaf(params).path_through(&[case.regime], 1).unwrap();
+        let fall = leaf(SynthesisParams::of_case(&case));
+        let fall = fall.path_through(&[case.regime], 1).unwrap();
         assert_eq!(fall.sequence(), [case.regime]);
     }
+}
+
+/// Both are offered for the same body: the thesis's pattern by its named preset, and by default what the
+/// measured curves say of the numbers computed for it. For none of the three bodies are they the same.
+#[test]
+fn printed_and_computed_numbers() {
+    let body = |fluid: Fluid, [length, chord, thickness]: [f64; 3], density| {
+        let numbers = Numbers::new(Outline::Round, chord, thickness, density, &fluid, 9.81);
+        (numbers.unwrap(), length)
+    };
+    let bodies = [
+        body(Fluid::WATER, [0.02, 0.02, 0.0015], 2700.0),
+        body(Fluid::AIR, [0.08, 0.02, 0.0001], 800.0),
+        body(Fluid::AIR, [0.073, 0.042, 0.0003], 400.0),
+    ];
+    let found = [
+        Regime::TransitionalChaotic,
+        Regime::PeriodicTumbling,
+        Regime::PeriodicTumbling,
+    ];
+    for (((numbers, length), case), computed) in
+        bodies.iter().zip(PhaseDiagram::THESIS_CASES).zip(found)
+    {
+        let main = |params| {
+            let database = TrajectoryDatabase::shipped();
+            Synthesizer::new(numbers, *length, database, params)
+                .unwrap()
+                .main()
+        };
+        assert_eq!(main(SynthesisParams::of_case(&case)), case.regime);
+        assert_eq!(main(SynthesisParams::default()), computed);
+    }
+    // The coin's own numbers are the printed ones to 1 %: there it is the boundary that decides.
+    let (coin, printed) = (&bodies[0].0, PhaseDiagram::THESIS_CASES[0]);
+    assert!((coin.reynolds_u0 / printed.reynolds - 1.0).abs() < 0.01);
+    assert!((coin.i_star / printed.i_star - 1.0).abs() < 0.01);
 }
 
 /// (3.11): with a main regime of level three there are seven motion classes; the chain makes them all,
@@ -114,45 +149,44 @@ fn projections() {
     assert!(HorizontalShape::of(&end_of(&path, 1.0)).extent < 1e-5);
 }
 
-/// The mean descent is U within 2 %: over every fall of the chain (it takes h/U) and over every stay in a
-/// regime within it, for every main regime, two heights and 200 seeds. At turning points the height is
-/// that of a steady descent to rounding: what is left is the interpolation between keyframes, of which a
-/// chaotic glide of a tenth of the regular size has few, so that they are closer here.
+/// The mean descent is U within 2 %: over every fall of the chain (it takes h/U), over every stay in a
+/// regime within it, and by least squares, for every main regime and 200 seeds.
 ///
-/// The slope by least squares, which weighs the middle of a fall, is printed only: a glide hangs below
-/// the line through its ends by A_y/(2Ω) on average, ten times as far if it is ten times as large.
+/// At turning points the height is that of a steady descent to rounding: what is left is the
+/// interpolation between keyframes, of which a chaotic glide of a tenth of the regular size has few, so
+/// that they are closer here. Between them a glide hangs below the line through its ends by A_y/(2Ω) of
+/// a regular one, on average: below .45 chords. Where that sets in, at worst in the middle of a fall, it
+/// bends the slope by 1.5 times that over the height: .9 % of 3 m.
 #[test]
 fn mean_descent() {
     for main in Regime::ALL {
+        let synthesizer = leaf(SynthesisParams {
+            interval: 1.0 / 960.0,
+            ..up_to(main, 3.0)
+        });
         let (mut worst, mut stays, mut bend) = (0.0f64, 0, 0.0f64);
-        for height in [0.5, 3.0] {
-            let synthesizer = leaf(SynthesisParams {
-                interval: 1.0 / 960.0,
-                ..up_to(main, height)
-            });
-            for seed in 0..200 {
-                let path = synthesizer.path(seed);
-                let mean = |from: f32, to: f32| {
-                    let fallen = path.at(from).position.y - path.at(to).position.y;
-                    f64::from(fallen) / f64::from(to - from) / synthesizer.descent()
-                };
-                let whole = mean(0.0, path.duration());
-                assert!((whole - 1.0).abs() < 1e-5, "{main} {height} {whole}");
-                let times = path.regimes().iter().map(|(from, _)| *from);
-                let times: Vec<f32> = times.chain([path.duration()]).collect();
-                for stay in times.windows(2) {
-                    worst = worst.max((mean(stay[0], stay[1]) - 1.0).abs());
-                    stays += 1;
-                }
-                bend = bend.max((slope(&path) / synthesizer.descent() - 1.0).abs());
+        for seed in 0..200 {
+            let path = synthesizer.path(seed);
+            let mean = |from: f32, to: f32| {
+                let fallen = path.at(from).position.y - path.at(to).position.y;
+                f64::from(fallen) / f64::from(to - from) / synthesizer.descent()
+            };
+            let whole = mean(0.0, path.duration());
+            assert!((whole - 1.0).abs() < 1e-5, "{main} {whole}");
+            let times = path.regimes().iter().map(|(from, _)| *from);
+            let times: Vec<f32> = times.chain([path.duration()]).collect();
+            for stay in times.windows(2) {
+                worst = worst.max((mean(stay[0], stay[1]) - 1.0).abs());
+                stays += 1;
             }
+            bend = bend.max((slope(&path) / synthesizer.descent() - 1.0).abs());
         }
         println!(
             "{main}: {stays} stays, mean descent within {:.3} % of U; slope by least squares {:.2} %",
             worst * 100.0,
             bend * 100.0
         );
-        assert!(worst < 0.02, "{main} {worst}");
+        assert!(worst < 0.02 && bend < 0.02, "{main} {worst} {bend}");
     }
 }
 

@@ -86,7 +86,8 @@ pub(super) const SMALLEST_FACTOR: f64 = 0.1;
 
 /// r ∈ [0.1, 10], by which a chaotic segment is larger than a regular one (thesis § 3.3.5). Normal in
 /// log₁₀ r, standard deviation ⅓, drawn again beyond the ends: the thesis names Box–Muller and the
-/// range only.
+/// range only. It is a factor on lengths and times in the glide plane; what the segment bobs up and down
+/// beside a steady descent is never larger than in a regular one.
 pub fn chaotic_factor(random: &mut impl Rng) -> f64 {
     loop {
         let normal: f64 = StandardNormal.sample(random);

@@ -123,8 +123,12 @@ impl Synthesizer {
                         g == glide && small >= 0.5 && large <= 2.0 * small
                     })
                 };
+                // A glide r times as long has A_y/r: it bobs no farther than a regular one. The height
+                // then follows a steady descent everywhere, not only at turning points.
+                let mut segment = entry.segment;
+                segment.flutter.vertical /= scale.max(1.0);
                 Course::Glide {
-                    segment: entry.segment,
+                    segment,
                     stretch: level.stretch,
                     flutter: &self.database.flutter()[entry.flutter as usize],
                     tumbling: &self.database.tumbling()[entry.tumbling as usize],
