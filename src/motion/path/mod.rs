@@ -13,6 +13,7 @@ mod bake;
 pub mod chain;
 pub mod curve;
 pub mod database;
+mod database_file;
 mod drift;
 mod level;
 pub mod params;
