@@ -3,9 +3,14 @@
 //! Rapier lists every body that is accessed mutably, and throws that list away in each step: the list's
 //! growth is what remains, the same as for a loop that only touches the bodies.
 
+use rapier3d_immersed::coupling::{Drive, MotionPlayer, MotionPlayers};
+use rapier3d_immersed::flow::{Flow, Uniform};
+use rapier3d_immersed::motion::Regime;
+use rapier3d_immersed::motion::path::{Key, MotionPath, WindResponse};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 struct Counting;
@@ -30,7 +35,70 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
+/// In turn: the counter is one for all threads.
 #[test]
+fn steps_allocate_nothing() {
+    before_and_after_allocate_nothing_in_flight();
+    for kinematic in [true, false] {
+        players_allocate_nothing(kinematic);
+    }
+}
+
+/// Players in wind, with contacts looked for.
+fn players_allocate_nothing(kinematic: bool) {
+    let key = |t: Real| Key {
+        position: Vector::Y * -t,
+        velocity: -Vector::Y,
+        attitude: Rotation::from_axis_angle(Vector::X, t),
+    };
+    let keys = (0..=100).map(|i| key(0.1 * i as Real)).collect();
+    let regimes = vec![(0.0, Regime::SteadyDescent)];
+    let path = Arc::new(MotionPath::new(0.1, keys, regimes).unwrap());
+    let mut world = PhysicsWorld::new();
+    let mut players = MotionPlayers::new();
+    let wind: Arc<dyn Flow> = Arc::new(Uniform::new(1.0, 0.0, 0.0));
+    players
+        .set_wind(Some((wind, WindResponse::default())))
+        .unwrap();
+    let leaves: Vec<_> = (0..100)
+        .map(|i| {
+            let mut player = MotionPlayer::new(path.clone(), Vector::X * i as Real);
+            let mut body = RigidBodyBuilder::dynamic();
+            if kinematic {
+                player.drive = Drive::Kinematic;
+                body = RigidBodyBuilder::kinematic_position_based();
+            }
+            let (leaf, _) = world.insert(
+                body.pose(player.release(Vector::ZERO)),
+                ColliderBuilder::cuboid(0.04, 0.0003, 0.02).density(300.0),
+            );
+            players.play(leaf, &player).unwrap();
+            leaf
+        })
+        .collect();
+    for _ in 0..20 {
+        players.before_step(&mut RapierSets::of(&mut world), None);
+        world.step();
+    }
+    let (mut allocations, mut touching) = (0, 0);
+    for _ in 0..100 {
+        // The list is empty after a step.
+        world.step();
+        let start = ALLOCATIONS.load(Ordering::Relaxed);
+        for leaf in &leaves {
+            world.bodies.get_mut(*leaf);
+        }
+        touching += ALLOCATIONS.load(Ordering::Relaxed) - start;
+        world.step();
+        let start = ALLOCATIONS.load(Ordering::Relaxed);
+        players.before_step(&mut RapierSets::of(&mut world), None);
+        allocations += ALLOCATIONS.load(Ordering::Relaxed) - start;
+        world.step();
+    }
+    assert_eq!(players.len(), leaves.len());
+    assert_eq!(allocations, touching, "kinematic: {kinematic}");
+}
+
 fn before_and_after_allocate_nothing_in_flight() {
     let mut world = PhysicsWorld::new();
     let leaves: Vec<_> = (0..100)

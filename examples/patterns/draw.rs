@@ -117,11 +117,32 @@ pub fn write(
     columns: usize,
     size: (u32, u32),
 ) -> Result<(), Box<dyn Error>> {
+    write_with_legend(path, title, &[], panels, columns, size)
+}
+
+/// The same with what the colours mean to the right of the title.
+pub fn write_with_legend(
+    path: &Path,
+    title: &str,
+    legend: &[(String, RGBColor)],
+    panels: &[Panel],
+    columns: usize,
+    size: (u32, u32),
+) -> Result<(), Box<dyn Error>> {
     let rows = panels.len().div_ceil(columns);
     let whole = (size.0 * columns as u32, size.1 * rows as u32 + 44);
     let root = SVGBackend::new(path, whole).into_drawing_area();
     root.fill(&WHITE)?;
     root.draw(&Text::new(title.to_string(), (16, 12), ("sans-serif", 20)))?;
+    let mut right = whole.0 as i32 - 16;
+    for (name, color) in legend.iter().rev() {
+        let style = ("sans-serif", 15).into_font().color(color);
+        right -= root.estimate_text_size(name, &style)?.0 as i32 + 8;
+        root.draw(&Text::new(name.clone(), (right, 15), style))?;
+        let line = vec![(right - 28, 22), (right - 6, 22)];
+        root.draw(&PathElement::new(line, color.stroke_width(3)))?;
+        right -= 44;
+    }
     let (_, below) = root.split_vertically(44);
     for (area, panel) in below.split_evenly((rows, columns)).iter().zip(panels) {
         let area = area.titled(&panel.title, ("sans-serif", 16))?;

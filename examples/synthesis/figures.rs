@@ -3,14 +3,17 @@
 use super::Body;
 use super::draw::{self, Item, Panel, Point};
 use plotters::prelude::RGBColor;
-use rapier3d_immersed::flow::{SpectralWind, WindParams};
+use rand::SeedableRng;
+use rapier3d_immersed::flow::{SpectralWind, Still, WindParams};
 use rapier3d_immersed::motion::path::{
     Deviation, Fall, Glide, MotionPath, SynthesisParams, TanabeKaneko, TrajectoryDatabase,
     WindResponse,
 };
 use rapier3d_immersed::motion::{PhaseDiagram, Regime};
 use rapier3d_immersed::rapier3d::math::{Real, Vector};
+use rapier3d_immersed::rapier3d::na::Vector2;
 use std::error::Error;
+use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -34,9 +37,23 @@ fn side(v: Vector) -> Point {
     (x + 0.35 * z, y - 0.2 * z)
 }
 
-/// A path in the colours of its regimes, with the body's chord drawn every `every` seconds.
+/// What the colours mean.
+pub fn legend() -> Vec<(String, RGBColor)> {
+    let names = Regime::ALL.into_iter();
+    names.map(|r| (r.to_string(), color(r))).collect()
+}
+
+/// A path in the colours of its regimes, over the body's chord every `every` seconds.
 fn trace(path: &MotionPath, chord: f64, every: Real) -> Vec<Item> {
     let mut items = Vec::new();
+    let mut time = 0.0;
+    while time <= path.duration() {
+        let key = path.at(time);
+        let half = key.attitude * Vector::Y * (0.5 * chord as Real);
+        let ends = [key.position - half, key.position + half].map(side);
+        items.push(Item::Line(ends.to_vec(), INK, 2));
+        time += every;
+    }
     for (i, (from, regime)) in path.regimes().iter().enumerate() {
         let to = path.regimes().get(i + 1).map_or(path.duration(), |r| r.0);
         let steps = 400;
@@ -46,15 +63,7 @@ fn trace(path: &MotionPath, chord: f64, every: Real) -> Vec<Item> {
                     .position,
             )
         });
-        items.push(Item::Line(line.collect(), color(*regime), 1));
-    }
-    let mut time = 0.0;
-    while time <= path.duration() {
-        let key = path.at(time);
-        let half = key.attitude * Vector::Y * (0.5 * chord as Real);
-        let ends = [key.position - half, key.position + half].map(side);
-        items.push(Item::Line(ends.to_vec(), INK, 2));
-        time += every;
+        items.push(Item::Line(line.collect(), color(*regime), 2));
     }
     items
 }
@@ -84,14 +93,19 @@ pub fn database(out: &Path, database: &TrajectoryDatabase) -> Result<(), Box<dyn
     }
     let mut segments = Panel::new("segments by class (3.6)", "x / L", "y / L");
     segments.window = Some([(-4.0, 4.0), (-8.0, 0.5)]);
-    let mut classes = Panel::new("feature vectors, 12 classes", "x / L", "descent / L");
-    classes.window = Some([(-4.0, 4.0), (0.0, 16.0)]);
+    let query = Vector2::new(1.2, -PI);
+    let mut classes = Panel::new(
+        "K-means classes (right glides); x: a query, black: drawn for it",
+        "across / L",
+        "descent / L",
+    );
+    classes.logarithmic = true;
     for (index, entry) in database.entries().iter().enumerate() {
         let hue = f64::from(entry.class) * 2.399;
         let part = |shift: f64| (127.0 + 110.0 * (hue + shift).cos()) as u8;
         let color = RGBColor(part(0.0), part(2.1), part(4.2));
         let feature = entry.segment.feature();
-        if feature.x.abs() < 4.0 && -feature.y < 16.0 {
+        if feature.x > 0.0 {
             let dot = vec![(feature.x, -feature.y)];
             classes.items.push(Item::Dots(dot, color, 3));
         }
@@ -104,6 +118,14 @@ pub fn database(out: &Path, database: &TrajectoryDatabase) -> Result<(), Box<dyn
             segments.items.push(Item::Line(line.collect(), color, 1));
         }
     }
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
+    for _ in 0..60 {
+        let drawn = database.find(query, 0.15, &mut random).segment.feature();
+        let dot = vec![(drawn.x, -drawn.y)];
+        classes.items.push(Item::Dots(dot, INK, 4));
+    }
+    let cross = Item::Label((query.x, -query.y), "x".into(), RGBColor(211, 47, 47));
+    classes.items.push(cross);
     let mut oriented = Panel::bare("a flutter with orientations from (3.4)");
     let entry = database
         .entries()
@@ -164,14 +186,15 @@ pub fn patterns(
     let (mut sides, mut tops) = (Vec::new(), Vec::new());
     for regime in Regime::ALL {
         let path = synthesizer.path_through(&[regime], seed)?;
-        let mut panel = Panel::bare(format!("{} {regime}", regime.abbreviation()));
-        panel.items = trace(&path, leaf.numbers.length, 0.035);
-        sides.push(panel);
-        let mut top = Panel::bare(format!(
-            "{} from above, drift taken out",
-            regime.abbreviation()
+        let mut panel = Panel::bare(format!(
+            "{} {regime}, {} m",
+            regime.abbreviation(),
+            leaf.height
         ));
-        top.window = Some([(-0.15, 0.15), (-0.15, 0.15)]);
+        panel.items = trace(&path, 1.5 * leaf.numbers.length, 0.035);
+        sides.push(panel);
+        let mut top = Panel::bare(format!("{} from above, no drift", regime.abbreviation()));
+        top.window = Some([(-0.12, 0.12), (-0.12, 0.12)]);
         // The drift over whole turns of spiral and helix (at a third of U/a), or over the whole fall.
         let count = match regime {
             Regime::TransitionalHelix | Regime::PeriodicSpiral => {
@@ -182,120 +205,178 @@ pub fn patterns(
         };
         let keys = &path.keys()[path.keys().len() - 1 - count..];
         let [first, last] = [keys[0].position, keys[count].position];
-        let line = keys.iter().enumerate().map(|(i, key)| {
-            let p = key.position - first - (last - first) * (i as Real / count as Real);
-            (f64::from(p.x), f64::from(p.z))
-        });
-        top.items.push(Item::Line(line.collect(), color(regime), 1));
+        let line: Vec<Point> = keys
+            .iter()
+            .enumerate()
+            .map(|(i, key)| {
+                let p = key.position - first - (last - first) * (i as Real / count as Real);
+                (f64::from(p.x), f64::from(p.z))
+            })
+            .collect();
+        // In the middle of the panel.
+        let range = |of: fn(&Point) -> f64| {
+            let low = line.iter().map(of).fold(f64::INFINITY, f64::min);
+            let high = line.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+            0.5 * (low + high)
+        };
+        let (x, z) = (range(|p| p.0), range(|p| p.1));
+        let line: Vec<Point> = line.iter().map(|p| (p.0 - x, p.1 - z)).collect();
+        if regime == Regime::SteadyDescent {
+            top.items
+                .push(Item::Dots(vec![(0.0, 0.0)], color(regime), 4));
+        }
+        top.items.push(Item::Line(line, color(regime), 2));
+        let scale = vec![(-0.05, -0.11), (0.05, -0.11)];
+        top.items.push(Item::Line(scale, GREY, 2));
+        top.items
+            .push(Item::Label((0.0, -0.1), "10 cm".into(), GREY));
         tops.push(top);
     }
     sides.extend(tops);
-    let title = "A leaf in each regime (thesis Figs. 3.1 and 3.8)";
+    for degrees in [20.0f64, 50.0, 80.0] {
+        let params = SynthesisParams {
+            main: Some(Regime::TransitionalChaotic),
+            release_angle: Some(degrees.to_radians()),
+            ..SynthesisParams::default()
+        };
+        let path = leaf
+            .synthesizer(params, database)?
+            .path_through(&[Regime::TransitionalChaotic], seed)?;
+        let mut panel = Panel::bare(format!("chaotic, released at {degrees}°"));
+        panel.items = trace(&path, 1.5 * leaf.numbers.length, 0.035);
+        sides.push(panel);
+    }
+    for variety in [0.0, 0.05, 0.5] {
+        let params = SynthesisParams {
+            main: Some(Regime::PeriodicFlutter),
+            variety,
+            ..SynthesisParams::default()
+        };
+        let path = leaf
+            .synthesizer(params, database)?
+            .path_through(&[Regime::PeriodicFlutter], seed)?;
+        let mut panel = Panel::bare(format!("flutter, variety {variety}"));
+        panel.items = trace(&path, 1.5 * leaf.numbers.length, 0.035);
+        sides.push(panel);
+    }
+    let title =
+        "A leaf in each regime (thesis Figs. 3.1 and 3.8), released at angles, and with variety";
     let path = out.join("synthesis_patterns.svg");
-    draw::write(&path, title, &sides, 6, (270, 420))
+    draw::write(&path, title, &sides, 6, (270, 330))
 }
 
-/// Figs. 3.15–3.17.
+/// Figs. 3.15–3.17: the thesis's bodies with the numbers that it prints, with those that are computed
+/// for them, and the leaf in wind.
 pub fn bodies(
     out: &Path,
     bodies: &[Body; 3],
     database: &Arc<TrajectoryDatabase>,
     seed: u64,
 ) -> Result<(), Box<dyn Error>> {
-    let chosen: [(&str, &[Regime]); 3] = [
-        (
-            "coin in water, .5 m: flutter (3.15)",
-            &[Regime::PeriodicFlutter],
-        ),
-        (
-            "paper, 3.1 m: tumbling, spiral (3.16)",
-            &[Regime::PeriodicTumbling, Regime::PeriodicSpiral],
-        ),
-        (
-            "leaf, 2 m: steady, tumbling, helix (3.17a)",
-            &[
-                Regime::SteadyDescent,
-                Regime::PeriodicTumbling,
-                Regime::TransitionalHelix,
-            ],
-        ),
+    let shown: [&[Regime]; 3] = [
+        &[Regime::PeriodicFlutter],
+        &[Regime::PeriodicTumbling, Regime::PeriodicSpiral],
+        &[
+            Regime::SteadyDescent,
+            Regime::PeriodicTumbling,
+            Regime::TransitionalHelix,
+        ],
     ];
-    let mut panels = Vec::new();
-    for ((body, case), (title, regimes)) in
-        bodies.iter().zip(PhaseDiagram::THESIS_CASES).zip(chosen)
-    {
+    let (mut printed, mut computed) = (Vec::new(), Vec::new());
+    for ((body, case), regimes) in bodies.iter().zip(PhaseDiagram::THESIS_CASES).zip(shown) {
         // Deviations are proportional to L/a; the slender paper would land four meters away.
         let deviation = Deviation {
             coefficient: body.numbers.length / body.length,
             ..Deviation::default()
         };
-        let params = SynthesisParams {
-            main: Some(case.regime),
+        let own = SynthesisParams {
             deviation,
             ..SynthesisParams::default()
         };
-        let path = body
-            .synthesizer(params, database)?
-            .path_through(regimes, seed)?;
-        let mut panel = Panel::new(title, "x, m", "y, m").equal();
-        let count = if body.height > 3.0 { 90.0 } else { 45.0 };
-        panel.items = trace(
-            &path,
-            body.numbers.length.max(0.04 * body.height),
-            path.duration() / count,
-        );
-        panels.push(panel);
-    }
-    let leaf = &bodies[2];
-    for speed in [3.0, 5.0] {
-        let params = SynthesisParams {
-            main: Some(PhaseDiagram::THESIS_CASES[2].regime),
-            wind: speed,
-            ..SynthesisParams::default()
+        let thesis = SynthesisParams {
+            deviation,
+            ..SynthesisParams::of_case(&case)
         };
-        let wind = SpectralWind::bake(&WindParams {
-            direction: -Vector::X,
-            mean_speed: speed,
-            reference_height: 2.0,
-            roughness: 0.3,
-            seed,
-            ..WindParams::default()
-        })?;
-        let response = WindResponse {
-            mean_speed: speed as Real,
-            ..WindResponse::default()
+        let own = body.synthesizer(own, database)?;
+        let numbers = [
+            (case.reynolds, case.i_star),
+            (body.numbers.reynolds_u0, body.numbers.i_star),
+        ];
+        let [as_printed, as_computed] = numbers.map(|(re, i)| format!("Re {re:.0}, I* {i:.2e}"));
+        let thesis = body.synthesizer(thesis, database)?;
+        // A chord of less than a fiftieth of the height would hardly be seen.
+        let enlarged = (0.02 * body.height / body.numbers.length).max(1.0).round();
+        for (row, title, path) in [
+            (
+                &mut printed,
+                format!("{}: printed {as_printed}", body.name),
+                thesis.path_through(regimes, seed)?,
+            ),
+            (
+                &mut computed,
+                format!("{}: computed {as_computed}", body.name),
+                own.path_through(&[own.main()], seed)?,
+            ),
+        ] {
+            let height = match enlarged > 1.0 {
+                true => format!("y, m (chords × {enlarged})"),
+                false => "y, m".to_string(),
+            };
+            let mut panel = Panel::new(title, "x, m", &height).equal();
+            panel.items = trace(
+                &path,
+                enlarged * body.numbers.length,
+                path.duration() / 40.0,
+            );
+            row.push(panel);
+        }
+    }
+    printed.extend(computed);
+    let mut panels = printed;
+    let leaf = &bodies[2];
+    for speed in [0.0, 3.0, 5.0] {
+        let params = SynthesisParams {
+            wind: speed,
+            ..SynthesisParams::of_case(&PhaseDiagram::THESIS_CASES[2])
         };
         let synthesizer = leaf.synthesizer(params, database)?;
-        let mut panel = Panel::new(
-            format!("leaf in wind of {speed} m/s, eight falls (3.17)"),
-            "x, m",
-            "y, m",
-        );
+        let title = format!("eight leaves in wind of {speed} m/s from the right (3.17)");
+        let mut panel = Panel::new(title, "x, m", "y, m");
+        panel.window = Some([
+            [(-1.5, 1.5), (-6.5, 0.5), (-11.5, 0.5)][(speed / 2.0) as usize],
+            (-2.3, 0.1),
+        ]);
         for fall in 0..8 {
-            let path = synthesizer.path(seed + fall).in_wind(
-                &wind,
-                Vector::Y * 2.0,
-                fall as Real,
-                0.0,
-                &response,
-            )?;
-            panel
-                .items
-                .extend(trace(&path, leaf.numbers.length, Real::INFINITY));
+            let mut path = synthesizer.path(seed + fall);
+            if speed > 0.0 {
+                let wind = SpectralWind::bake(&WindParams {
+                    direction: -Vector::X,
+                    mean_speed: speed,
+                    reference_height: 2.0,
+                    roughness: 0.3,
+                    seed,
+                    ..WindParams::default()
+                })?;
+                let response = WindResponse {
+                    mean_speed: speed as Real,
+                    ..WindResponse::default()
+                };
+                path = path.in_wind(&wind, Vector::Y * 2.0, fall as Real, 0.0, &response)?;
+            } else {
+                path = path.in_wind(
+                    &Still,
+                    Vector::ZERO,
+                    fall as Real,
+                    0.0,
+                    &WindResponse::default(),
+                )?;
+            }
+            let trace = trace(&path, leaf.numbers.length, Real::INFINITY);
+            panel.items.extend(trace);
         }
         panels.push(panel);
     }
-    let mut key = Panel::bare("colours; chords not to scale where small");
-    key.window = Some([(0.0, 1.0), (-7.0, 1.0)]);
-    for (i, regime) in Regime::ALL.into_iter().enumerate() {
-        let y = -(i as f64) - 0.5;
-        key.items
-            .push(Item::Line(vec![(-3.0, y), (-2.0, y)], color(regime), 3));
-        key.items
-            .push(Item::Label((0.2, y), regime.to_string(), color(regime)));
-    }
-    panels.push(key);
-    let title = "The thesis's worked bodies, synthesized (Figs. 3.15–3.17)";
+    let title = "The thesis's worked bodies (Figs. 3.15–3.17)";
     let path = out.join("synthesis_bodies.svg");
-    draw::write(&path, title, &panels, 3, (430, 560))
+    draw::write_with_legend(&path, title, &legend(), &panels, 3, (430, 470))
 }

@@ -2,7 +2,7 @@
 
 use super::Body;
 use super::draw::{self, Item, Panel};
-use super::figures::color;
+use super::figures::{color, legend};
 use plotters::prelude::RGBColor;
 use rapier3d_immersed::coupling::{AtContact, MotionPlayer, MotionPlayers, Playing};
 use rapier3d_immersed::motion::Regime;
@@ -14,6 +14,8 @@ use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;
 
+/// Where the leaves hang.
+const CROWN: RGBColor = RGBColor(176, 214, 160);
 const GROUND: RGBColor = RGBColor(120, 100, 70);
 const FORCES: RGBColor = RGBColor(120, 120, 120);
 
@@ -83,6 +85,10 @@ pub fn draw(
     }
     // Positions of each leaf, and what moved it: its regime, or forces.
     let mut trails: Vec<Vec<(draw::Point, Option<Regime>)>> = vec![Vec::new(); handles.len()];
+    let released: Vec<_> = handles
+        .iter()
+        .map(|(_, player)| (f64::from(player.origin.x), f64::from(player.origin.y)))
+        .collect();
     let mut met = vec![false; handles.len()];
     for _ in 0..720 {
         players.before_step(&mut RapierSets::of(&mut world), Some(&mut immersion));
@@ -98,23 +104,28 @@ pub fn draw(
         }
     }
     let mut panel = Panel::new(
-        "colour: regime played; grey: force model after a contact",
+        "on its path a leaf has the colour of the regime; after it has met something the force model moves it",
         "x, m",
         "y, m",
     )
     .equal();
-    panel.window = Some([(-2.0, 2.0), (-0.1, 2.2)]);
-    let ground = vec![(-2.0, 0.0), (2.0, 0.0)];
+    let xs = || trails.iter().flatten().map(|((x, _), _)| *x);
+    let ends = [xs().fold(-1.0, f64::min), xs().fold(1.0, f64::max)];
+    let ground = ends.map(|x| (1.05 * x, 0.0)).to_vec();
+    panel.items.push(Item::Dots(released, CROWN, 7));
     panel.items.push(Item::Line(ground, GROUND, 4));
     for [[ax, ay], [bx, by]] in TWIGS.into_iter().chain([[[0.0, 0.0], [0.0, 1.7]]]) {
         let ends = [(ax, ay), (bx, by)].map(|(x, y)| (f64::from(x), f64::from(y)));
         panel.items.push(Item::Line(ends.to_vec(), GROUND, 6));
     }
     for trail in &trails {
+        let mut last = None;
         for part in trail.chunk_by(|a, b| a.1 == b.1) {
-            let line = part.iter().map(|(p, _)| *p).collect();
+            // From the last point of the part before: no gap.
+            let line = last.into_iter().chain(part.iter().map(|(p, _)| *p));
             let color = part[0].1.map_or(FORCES, color);
-            panel.items.push(Item::Line(line, color, 1));
+            panel.items.push(Item::Line(line.collect(), color, 2));
+            last = part.last().map(|(p, _)| *p);
         }
     }
     let rest = handles
@@ -125,10 +136,12 @@ pub fn draw(
         .iter()
         .filter(|(handle, _)| world.bodies[*handle].linvel().length() < 0.05)
         .count();
-    panel.items.push(Item::Dots(rest, RGBColor(60, 120, 40), 3));
+    panel.items.push(Item::Dots(rest, RGBColor(60, 120, 40), 4));
     let path = out.join("synthesis_tree.svg");
     let title = "Leaves from a tree, with collisions (thesis Fig. 3.18)";
-    draw::write(&path, title, &[panel], 1, (1080, 680))?;
+    let mut legend = legend();
+    legend.push(("force model".into(), FORCES));
+    draw::write_with_legend(&path, title, &legend, &[panel], 1, (1280, 760))?;
     Ok(json!({
         "leaves": leaves,
         "met_something_in_the_air": met.iter().filter(|m| **m).count(),

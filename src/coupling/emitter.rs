@@ -9,15 +9,19 @@ use crate::body::ImmersedBody;
 use crate::motion::path::MotionPath;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::dynamics::{RigidBody, RigidBodyBuilder, RigidBodyHandle, RigidBodyType};
 use rapier3d::geometry::ColliderBuilder;
-use rapier3d::math::{Real, Rotation, Vector};
+use rapier3d::math::{Pose, Real, Rotation, Vector};
 use rapier3d::pipeline::PhysicsWorld;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Where, how many and what kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub struct EmitterParams {
     /// Corners of the box in which bodies appear, m. Default a meter square 3 m up.
     pub corners: [Vector; 2],
@@ -29,7 +33,7 @@ pub struct EmitterParams {
     pub played: Real,
     /// How long a body stays, s. Default 60.
     pub lifetime: Real,
-    /// How players follow their path; kinematic ones are never immersed. Default a compliance of 0.1 s.
+    /// How players follow their path. Default a compliance of 0.1 s.
     pub drive: Drive,
     /// What a contact does to them. Default: the force model takes over.
     pub at_contact: AtContact,
@@ -53,23 +57,32 @@ impl Default for EmitterParams {
 }
 
 /// Lets equal bodies into a world.
+///
+/// With the feature `serde-serialize` it can be saved and goes on alike; loading refuses what
+/// [`Emitter::new`] does, and other versions.
 #[derive(Clone)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Deserialize),
+    serde(try_from = "super::snapshot::EmitterSnapshot<MotionPath>")
+)]
 pub struct Emitter {
-    params: EmitterParams,
-    body: RigidBodyBuilder,
-    collider: ColliderBuilder,
-    immersed: ImmersedBody,
-    paths: Vec<Arc<MotionPath>>,
+    pub(super) params: EmitterParams,
+    pub(super) body: RigidBody,
+    pub(super) collider: ColliderBuilder,
+    pub(super) immersed: ImmersedBody,
+    pub(super) paths: Vec<Arc<MotionPath>>,
     axes: Rotation,
-    random: Pcg64Mcg,
-    due: Real,
-    time: f64,
-    alive: VecDeque<(f64, RigidBodyHandle)>,
+    pub(super) random: Pcg64Mcg,
+    pub(super) due: Real,
+    pub(super) time: f64,
+    pub(super) alive: VecDeque<(f64, RigidBodyHandle)>,
 }
 
 impl Emitter {
     /// An emitter of bodies like `body` with `collider` (whose center of mass is the body's origin)
-    /// that are `immersed` so, and play one of `paths`.
+    /// that are `immersed` so, and play one of `paths`. Whatever type the body has, those that play by
+    /// [`Drive::Kinematic`] are kinematic and all others dynamic.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::InvalidParameter`] or [`Error::OutOfRange`] names a parameter that
@@ -79,6 +92,16 @@ impl Emitter {
         body: RigidBodyBuilder,
         collider: ColliderBuilder,
         immersed: impl Into<ImmersedBody>,
+        paths: Vec<Arc<MotionPath>>,
+    ) -> Result<Self, Error> {
+        Self::of(params, body.build(), collider, immersed.into(), paths)
+    }
+
+    pub(super) fn of(
+        params: EmitterParams,
+        body: RigidBody,
+        collider: ColliderBuilder,
+        immersed: ImmersedBody,
         paths: Vec<Arc<MotionPath>>,
     ) -> Result<Self, Error> {
         for corner in params.corners {
@@ -102,7 +125,6 @@ impl Emitter {
                 actual: 0,
             });
         }
-        let immersed = immersed.into();
         let axes = crate::math::to_rotation(immersed.hydro.planform.axes.into());
         Ok(Self {
             random: Pcg64Mcg::seed_from_u64(params.seed),
@@ -167,31 +189,38 @@ impl Emitter {
         let played = share() < self.params.played;
         let tilt = Rotation::from_axis_angle(Vector::X, share() - 0.5);
         let mut body = self.body.clone();
-        if played {
+        let player = played.then(|| {
             let path = &self.paths[random.random_range(0..self.paths.len())];
-            let player = MotionPlayer {
+            MotionPlayer {
                 heading,
                 axes: self.axes,
                 drive: self.params.drive,
                 at_contact: self.params.at_contact,
                 ..MotionPlayer::new(path.clone(), place)
-            };
-            body = body.pose(player.release(Vector::ZERO));
-            let (handle, _) = world.insert(body, self.collider.clone());
+            }
+        });
+        let turn = Rotation::from_axis_angle(Vector::Y, heading) * tilt;
+        let pose = match &player {
+            Some(player) => player.release(Vector::ZERO),
+            None => Pose::from_parts(place, turn),
+        };
+        let kinematic = played && self.params.drive == Drive::Kinematic;
+        body.set_body_type(
+            match kinematic {
+                true => RigidBodyType::KinematicPositionBased,
+                false => RigidBodyType::Dynamic,
+            },
+            true,
+        );
+        body.set_position(pose, true);
+        let (handle, _) = world.insert(body, self.collider.clone());
+        if let Some(player) = player {
             players
                 .play(handle, &player)
                 .expect("the emitter's players were checked");
-            if self.params.drive != Drive::Kinematic {
-                immersion.insert(handle, self.immersed.clone());
-            }
-            handle
-        } else {
-            let turn = Rotation::from_axis_angle(Vector::Y, heading) * tilt;
-            body = body.pose(rapier3d::math::Pose::from_parts(place, turn));
-            let (handle, _) = world.insert(body, self.collider.clone());
-            immersion.insert(handle, self.immersed.clone());
-            handle
         }
+        immersion.insert(handle, self.immersed.clone());
+        handle
     }
 }
 
@@ -252,6 +281,43 @@ mod tests {
         assert!(places.iter().all(|p| p.is_finite() && p.y < 3.01));
         assert_eq!(run(3).0, places);
         assert_ne!(run(4).0, places);
+    }
+
+    /// Kinematic players hand over where they meet the floor, so that they are immersed too; those that
+    /// do not play are dynamic from the start.
+    #[test]
+    fn kinematic_streams_settle() {
+        let mut emitter = confetti(EmitterParams {
+            corners: [Vector::new(-0.5, 0.6, -0.5), Vector::new(0.5, 0.9, 0.5)],
+            rate: 60.0,
+            most: 60,
+            played: 0.5,
+            drive: Drive::Kinematic,
+            ..EmitterParams::default()
+        })
+        .unwrap();
+        let mut world = PhysicsWorld::new();
+        let floor = ColliderBuilder::cuboid(9.0, 0.1, 9.0).translation(Vector::Y * -0.1);
+        world.insert(RigidBodyBuilder::fixed(), floor);
+        let mut players = MotionPlayers::new();
+        let mut immersion = Immersion::new(Fluid::AIR);
+        let mut most = 0;
+        for step in 0..240 {
+            if step < 60 {
+                emitter.before_step(&mut world, &mut players, &mut immersion);
+            }
+            players.before_step(&mut RapierSets::of(&mut world), Some(&mut immersion));
+            immersion.step(&mut world);
+            let kinematic = world.bodies.iter().filter(|(_, body)| body.is_kinematic());
+            assert_eq!(kinematic.count(), players.len());
+            most = most.max(players.len());
+        }
+        assert!(most > 10 && players.is_empty(), "{most} {}", players.len());
+        assert_eq!(immersion.len(), 60);
+        for handle in emitter.alive() {
+            let height = world.bodies[handle].translation().y;
+            assert!((-0.01..0.05).contains(&height), "{height}");
+        }
     }
 
     #[test]

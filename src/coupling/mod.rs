@@ -10,10 +10,13 @@ mod immersion;
 mod kind;
 mod original;
 mod playback;
+mod played;
 mod player;
 mod players;
 pub mod preset;
 mod readout;
+#[cfg(feature = "serde-serialize")]
+mod snapshot;
 mod step;
 mod stream;
 mod wing;

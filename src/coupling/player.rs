@@ -7,20 +7,35 @@ use std::sync::Arc;
 
 /// How a body is made to follow its path.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub enum Drive {
-    /// By its position; for position-based kinematic bodies, which nothing deflects. At the end of the
-    /// path the body becomes dynamic.
+    /// By its position; for position-based kinematic bodies, which follow exactly and push others away.
+    ///
+    /// What is to happen [at a contact](AtContact), with whatever kind of body, begins in the step after
+    /// rapier finds it (as near as its prediction distance, or farther with the body's soft CCD
+    /// prediction; what moves farther than that in a step is hit late): then the body becomes dynamic,
+    /// with the velocities that it had. At the end of the path it becomes dynamic, too. Its colliders are
+    /// told to look for contacts with fixed and kinematic bodies
+    /// ([`ActiveCollisionTypes`](rapier3d::geometry::ActiveCollisionTypes)), and go on doing so.
     Kinematic,
     /// By its velocity, every step anew; for dynamic bodies. What contacts displace comes back within
-    /// about `compliance` seconds; zero is at once.
+    /// about `compliance` seconds; zero is at once. The body may turn by more than 45° per step from
+    /// then on, as tumbling leaves do.
     Velocity {
         /// Time constant, s.
         compliance: Real,
     },
 }
 
-/// What a contact does to a body that is driven by its velocity.
+/// What a contact does to a body that plays a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub enum AtContact {
     /// The body is played no more. If it is immersed, the force model takes over, otherwise rapier
     /// alone. The default.
@@ -33,9 +48,9 @@ pub enum AtContact {
         after: Real,
     },
     /// The path goes on from where the contact moved the body, at first with the velocity that the
-    /// contact gave it.
+    /// contact gave it. A kinematic body is dynamic while it touches something.
     Deflect,
-    /// The path goes on and pulls the body back.
+    /// The path goes on and pulls the body back; a kinematic one goes through what cannot give way.
     Ignore,
 }
 
@@ -89,11 +104,24 @@ impl MotionPlayer {
         Error::check_finite("heading", self.heading.into())?;
         let norm = f64::from(self.axes.length());
         Error::check("norm of the axes", norm, (norm - 1.0).abs() < 1e-3, "1")?;
-        if let Drive::Velocity { compliance } = self.drive {
-            Error::check_not_negative("compliance", compliance.into())?;
+        self.drive.check()?;
+        self.at_contact.check()
+    }
+}
+
+impl Drive {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if let Self::Velocity { compliance } = self {
+            Error::check_not_negative("compliance", (*compliance).into())?;
         }
-        if let AtContact::Resume { after } = self.at_contact {
-            Error::check_not_negative("after", after.into())?;
+        Ok(())
+    }
+}
+
+impl AtContact {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        if let Self::Resume { after } = self {
+            Error::check_not_negative("after", (*after).into())?;
         }
         Ok(())
     }

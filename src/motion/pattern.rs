@@ -45,6 +45,14 @@ impl Regime {
             Self::PeriodicSpiral => "PS",
         }
     }
+
+    /// Whether falls in it are put together from glides (thesis Fig. 3.7), rather than from a curve.
+    pub const fn has_search_tree(self) -> bool {
+        matches!(
+            self,
+            Self::PeriodicFlutter | Self::TransitionalChaotic | Self::PeriodicTumbling
+        )
+    }
 }
 
 impl fmt::Display for Regime {

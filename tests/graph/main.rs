@@ -1,5 +1,12 @@
 //! Graph-based synthesis: what falls that are put together from segments must keep to.
 
+mod kinematic;
+mod landing;
+mod players;
+mod release;
+#[cfg(feature = "serde-serialize")]
+mod snapshot;
+
 use rapier3d_immersed::Fluid;
 use rapier3d_immersed::motion::path::{
     HorizontalShape, MotionPath, SynthesisParams, Synthesizer, TrajectoryDatabase,
@@ -51,11 +58,46 @@ fn the_worked_bodies() {
         } else {
             assert_eq!(regime, case.regime);
         }
-        let height = 3.1;
-        let params = up_to(case.regime, height);
-        let fall = leaf(params).path_through(&[case.regime], 1).unwrap();
+        let fall = leaf(SynthesisParams::of_case(&case));
+        let fall = fall.path_through(&[case.regime], 1).unwrap();
         assert_eq!(fall.sequence(), [case.regime]);
     }
+}
+
+/// Both are offered for the same body: the thesis's pattern by its named preset, and by default what the
+/// measured curves say of the numbers computed for it. For none of the three bodies are they the same.
+#[test]
+fn printed_and_computed_numbers() {
+    let body = |fluid: Fluid, [length, chord, thickness]: [f64; 3], density| {
+        let numbers = Numbers::new(Outline::Round, chord, thickness, density, &fluid, 9.81);
+        (numbers.unwrap(), length)
+    };
+    let bodies = [
+        body(Fluid::WATER, [0.02, 0.02, 0.0015], 2700.0),
+        body(Fluid::AIR, [0.08, 0.02, 0.0001], 800.0),
+        body(Fluid::AIR, [0.073, 0.042, 0.0003], 400.0),
+    ];
+    let found = [
+        Regime::TransitionalChaotic,
+        Regime::PeriodicTumbling,
+        Regime::PeriodicTumbling,
+    ];
+    for (((numbers, length), case), computed) in
+        bodies.iter().zip(PhaseDiagram::THESIS_CASES).zip(found)
+    {
+        let main = |params| {
+            let database = TrajectoryDatabase::shipped();
+            Synthesizer::new(numbers, *length, database, params)
+                .unwrap()
+                .main()
+        };
+        assert_eq!(main(SynthesisParams::of_case(&case)), case.regime);
+        assert_eq!(main(SynthesisParams::default()), computed);
+    }
+    // The coin's own numbers are the printed ones to 1 %: there it is the boundary that decides.
+    let (coin, printed) = (&bodies[0].0, PhaseDiagram::THESIS_CASES[0]);
+    assert!((coin.reynolds_u0 / printed.reynolds - 1.0).abs() < 0.01);
+    assert!((coin.i_star / printed.i_star - 1.0).abs() < 0.01);
 }
 
 /// (3.11): with a main regime of level three there are seven motion classes; the chain makes them all,
@@ -107,93 +149,58 @@ fn projections() {
     assert!(HorizontalShape::of(&end_of(&path, 1.0)).extent < 1e-5);
 }
 
-/// Falls of the chain take h/U; and within them the height falls steadily: its slope over time, by
-/// least squares, is U within 2 % in every regime but the chaotic one, whose few large segments bend it.
+/// The mean descent is U within 2 %: over every fall of the chain (it takes h/U), over every stay in a
+/// regime within it, and by least squares, for every main regime and 200 seeds.
+///
+/// At turning points the height is that of a steady descent to rounding: what is left is the
+/// interpolation between keyframes, of which a chaotic glide of a tenth of the regular size has few, so
+/// that they are closer here. Between them a glide hangs below the line through its ends by A_y/(2Ω) of
+/// a regular one, on average: below .45 chords. Where that sets in, at worst in the middle of a fall, it
+/// bends the slope by 1.5 times that over the height: .9 % of 3 m.
 #[test]
 fn mean_descent() {
-    let slope = |path: &MotionPath| {
-        let all = positions(path);
-        let middle = 0.5 * (all.len() - 1) as f64;
-        let (mut up, mut down) = (0.0, 0.0);
-        for (i, point) in all.iter().enumerate() {
-            let t = i as f64 - middle;
-            up += t * point.y;
-            down += t * t;
+    for main in Regime::ALL {
+        let synthesizer = leaf(SynthesisParams {
+            interval: 1.0 / 960.0,
+            ..up_to(main, 3.0)
+        });
+        let (mut worst, mut stays, mut bend) = (0.0f64, 0, 0.0f64);
+        for seed in 0..200 {
+            let path = synthesizer.path(seed);
+            let mean = |from: f32, to: f32| {
+                let fallen = path.at(from).position.y - path.at(to).position.y;
+                f64::from(fallen) / f64::from(to - from) / synthesizer.descent()
+            };
+            let whole = mean(0.0, path.duration());
+            assert!((whole - 1.0).abs() < 1e-5, "{main} {whole}");
+            let times = path.regimes().iter().map(|(from, _)| *from);
+            let times: Vec<f32> = times.chain([path.duration()]).collect();
+            for stay in times.windows(2) {
+                worst = worst.max((mean(stay[0], stay[1]) - 1.0).abs());
+                stays += 1;
+            }
+            bend = bend.max((slope(&path) / synthesizer.descent() - 1.0).abs());
         }
-        -up / down / f64::from(path.interval())
-    };
-    let synthesizer = leaf(up_to(Regime::PeriodicSpiral, 3.0));
-    let mut worst = 0.0f64;
-    for seed in 0..200 {
-        let path = synthesizer.path(seed);
-        let all = positions(&path);
-        let mean = (all[0].y - all[all.len() - 1].y) / f64::from(path.duration());
-        // In f32.
-        assert!((mean / synthesizer.descent() - 1.0).abs() < 1e-5);
-        worst = worst.max((slope(&path) / synthesizer.descent() - 1.0).abs());
-    }
-    println!(
-        "slope of the chain's falls: within {:.2} % of U",
-        worst * 100.0
-    );
-    for regime in Regime::ALL {
-        let path = synthesizer.path_through(&[regime], 1).unwrap();
-        let ratio = slope(&path) / synthesizer.descent();
-        println!("{regime}: slope {ratio:.4} U");
-        let chaotic = regime == Regime::TransitionalChaotic;
-        assert!(chaotic || (ratio - 1.0).abs() < 0.02, "{regime} {ratio}");
+        println!(
+            "{main}: {stays} stays, mean descent within {:.3} % of U; slope by least squares {:.2} %",
+            worst * 100.0,
+            bend * 100.0
+        );
+        assert!(worst < 0.02 && bend < 0.02, "{main} {worst} {bend}");
     }
 }
 
-/// Landing distances of flutter are normal with the asked mean and deviation: mean and spread of 4000 within 4
-/// standard errors, and the Kolmogorov–Smirnov distance below 1.63/√n (1 % level).
-#[test]
-fn landings() {
-    let synthesizer = leaf(SynthesisParams {
-        interval: 0.05,
-        ..up_to(Regime::PeriodicFlutter, 2.0)
-    });
-    let params = SynthesisParams::default();
-    let aspect = 0.073 / 0.042;
-    let (mean, spread) = (
-        params.deviation.distance(aspect, 2.0),
-        params.deviation.spread(aspect, 2.0),
-    );
-    let mut landings: Vec<f64> = (0..4000)
-        .map(|seed| synthesizer.path_through(&[Regime::PeriodicFlutter], seed))
-        .map(|path| *positions(&path.unwrap()).last().unwrap())
-        .map(|landing| {
-            assert!((landing.y + 2.0).abs() < 1e-5 && landing.z.abs() < 1e-5);
-            landing.x
-        })
-        .collect();
-    landings.sort_by(f64::total_cmp);
-    let n = landings.len() as f64;
-    let found = landings.iter().sum::<f64>() / n;
-    let variance = landings.iter().map(|r| (r - found).powi(2)).sum::<f64>() / n;
-    assert!((found - mean).abs() < 4.0 * spread / n.sqrt());
-    assert!((variance.sqrt() / spread - 1.0).abs() < 4.0 / (2.0 * n).sqrt());
-    let distance = landings.iter().enumerate().map(|(i, r)| {
-        let normal = normal_below((r - mean) / spread);
-        (normal - i as f64 / n)
-            .abs()
-            .max((normal - (i + 1) as f64 / n).abs())
-    });
-    let distance = distance.fold(0.0, f64::max);
-    assert!(distance < 1.63 / n.sqrt(), "{distance}");
-}
-
-/// Normal distribution function by Simpson's rule.
-fn normal_below(z: f64) -> f64 {
-    let density = |x: f64| (-0.5 * x * x).exp() / std::f64::consts::TAU.sqrt();
-    let h = z / 200.0;
-    let sum: f64 = (0..100)
-        .map(|i| {
-            let x = 2.0 * h * f64::from(i);
-            density(x) + 4.0 * density(x + h) + density(x + 2.0 * h)
-        })
-        .sum();
-    0.5 + sum * h / 3.0
+/// The descent of a fall by least squares of height over time, m/s.
+fn slope(path: &MotionPath) -> f64 {
+    let all = positions(path);
+    let middle = 0.5 * (all.len() - 1) as f64;
+    let (mut up, mut down) = (0.0, 0.0);
+    for (i, point) in all.iter().enumerate() {
+        let t = i as f64 - middle;
+        up += t * point.y;
+        down += t * t;
+    }
+    -up / down / f64::from(path.interval())
 }
 
 /// No jump above 1 % of the body's smaller extent or 2° where segments are spliced, in 60 falls through

@@ -4,7 +4,8 @@ use crate::Error;
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-/// The landing distance's distribution, ∝ exp(−((r − B)/C)²) per unit of height, scaled by kL/a.
+/// Where falls land: a distance ∝ exp(−((r − B)/C)²) per unit of height, scaled by kL/a, along the
+/// heading; and beside it, if that is asked for.
 ///
 /// The thesis takes the form from thousands of falls of paper (Razavi 2010) without printing k, B or C;
 /// the defaults are ours. A coin (L = a) then lands .3 ± .1 of its height away, as measured coins in
@@ -21,6 +22,9 @@ pub struct Deviation {
     pub mean: f64,
     /// C: width, √2 standard deviations, per unit of height. Default 0.15.
     pub width: f64,
+    /// The same across the heading, about 0. Default 0, as in the thesis, whose falls are plane unless
+    /// they circle.
+    pub across: f64,
 }
 
 impl Default for Deviation {
@@ -29,6 +33,7 @@ impl Default for Deviation {
             coefficient: 1.0,
             mean: 0.3,
             width: 0.15,
+            across: 0.0,
         }
     }
 }
@@ -40,6 +45,7 @@ impl Deviation {
         Error::check_not_negative("deviation coefficient", self.coefficient)?;
         Error::check_not_negative("mean deviation", self.mean)?;
         Error::check_not_negative("width of the deviation", self.width)?;
+        Error::check_not_negative("width across the heading", self.across)?;
         Ok(())
     }
 
@@ -54,21 +60,34 @@ impl Deviation {
         self.coefficient * self.width * aspect * height * std::f64::consts::FRAC_1_SQRT_2
     }
 
+    /// Standard deviation of the landing across the heading, m.
+    pub fn spread_across(&self, aspect: f64, height: f64) -> f64 {
+        self.coefficient * self.across * aspect * height * std::f64::consts::FRAC_1_SQRT_2
+    }
+
     /// A_0 = D U/(hΩ), m: amplitude of the oscillation (3.10). It does not depend on the height.
     pub fn amplitude(&self, aspect: f64, descent: f64, frequency: f64) -> f64 {
         self.distance(aspect, 1.0) * descent / frequency
     }
 
-    /// Draws a landing distance, m; negative ones are behind the release.
-    pub fn draw(&self, aspect: f64, height: f64, random: &mut impl Rng) -> f64 {
-        let normal: f64 = StandardNormal.sample(random);
-        self.distance(aspect, height) + self.spread(aspect, height) * normal
+    /// Draws where a fall lands, m: along the heading (negative is behind the release) and to its right.
+    pub fn draw(&self, aspect: f64, height: f64, random: &mut impl Rng) -> [f64; 2] {
+        let along: f64 = StandardNormal.sample(random);
+        let across: f64 = StandardNormal.sample(random);
+        [
+            self.distance(aspect, height) + self.spread(aspect, height) * along,
+            self.spread_across(aspect, height) * across,
+        ]
     }
 }
 
+/// The smallest [`chaotic_factor`].
+pub(super) const SMALLEST_FACTOR: f64 = 0.1;
+
 /// r ∈ [0.1, 10], by which a chaotic segment is larger than a regular one (thesis § 3.3.5). Normal in
 /// log₁₀ r, standard deviation ⅓, drawn again beyond the ends: the thesis names Box–Muller and the
-/// range only.
+/// range only. It is a factor on lengths and times in the glide plane; what the segment bobs up and down
+/// beside a steady descent is never larger than in a regular one.
 pub fn chaotic_factor(random: &mut impl Rng) -> f64 {
     loop {
         let normal: f64 = StandardNormal.sample(random);
@@ -91,11 +110,13 @@ mod tests {
             coefficient: 2.0,
             mean: 0.1,
             width: 0.05,
+            across: 0.02,
         };
         assert!((deviation.distance(4.0, 3.0) - 2.4).abs() < 1e-12);
         assert!((deviation.amplitude(4.0, 0.8, 5.0) - 2.4 * 0.8 / (3.0 * 5.0)).abs() < 1e-12);
         // exp(−(r/C)²) has the standard deviation C/√2.
         assert!((deviation.spread(4.0, 3.0) - 1.2 / 2f64.sqrt()).abs() < 1e-12);
+        assert!((deviation.spread_across(4.0, 3.0) - 0.48 / 2f64.sqrt()).abs() < 1e-12);
     }
 
     /// The mean of 10 000 draws is within 5 standard errors, their spread too (relative error 1/√2n).
@@ -104,7 +125,7 @@ mod tests {
         let deviation = Deviation::default();
         let mut random = Pcg64Mcg::seed_from_u64(2);
         let draws: Vec<f64> = (0..10_000)
-            .map(|_| deviation.draw(1.0, 2.0, &mut random))
+            .map(|_| deviation.draw(1.0, 2.0, &mut random)[0])
             .collect();
         let mean = draws.iter().sum::<f64>() / 1e4;
         let spread = (draws.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / 1e4).sqrt();

@@ -1,5 +1,6 @@
 //! The Markov chain over the six regimes (thesis § 3.4).
 
+use crate::Error;
 use crate::motion::{MotionGraph, Regime};
 
 /// Probability that a fall goes on in its regime at a turning point, by default.
@@ -43,6 +44,28 @@ pub fn motion_classes(main: Regime) -> Vec<Vec<Regime>> {
             Regime::ALL.into_iter().filter(has).collect()
         })
         .collect()
+}
+
+/// The graph with tumbling and chaotic motion `share` times as likely to begin or go on.
+pub(super) fn calmed(graph: &MotionGraph, share: f64) -> Result<MotionGraph, Error> {
+    let states = graph.states();
+    let calm = |p: f64, to: usize| match Regime::ALL[to] {
+        Regime::TransitionalChaotic | Regime::PeriodicTumbling => p * share,
+        _ => p,
+    };
+    let row = |of: &dyn Fn(usize) -> f64, fallback: usize| -> Vec<f64> {
+        let row: Vec<f64> = (0..states).map(|to| calm(of(to), to)).collect();
+        let sum: f64 = row.iter().sum();
+        if sum > 0.0 {
+            row.into_iter().map(|p| p / sum).collect()
+        } else {
+            (0..states)
+                .map(|to| f64::from(u8::from(to == fallback)))
+                .collect()
+        }
+    };
+    let rows = (0..states).map(|from| row(&|to| graph.probability(from, to), from));
+    MotionGraph::new(row(&|to| graph.start(to), 0), rows.collect())
 }
 
 #[cfg(test)]

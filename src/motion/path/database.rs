@@ -1,10 +1,9 @@
 //! The trajectory database: motion segments with their orientation, found by feature vector (thesis
 //! § 3.3.2).
 
-use super::segment::{Glide, HarmonicFlutter, Segment};
+use super::segment::{HarmonicFlutter, Segment};
 use super::tanabe_kaneko::AngleCurve;
 use crate::Error;
-use crate::file::{FileKind, Reader, Writer};
 use rand::{Rng, RngExt};
 use rapier3d::na::Vector2;
 use rstar::RTree;
@@ -29,11 +28,15 @@ pub struct Entry {
 /// Baked by `TrajectoryDatabase::bake` (feature `bake`), or the one that ships with the crate.
 #[derive(Clone, Debug)]
 pub struct TrajectoryDatabase {
-    entries: Vec<Entry>,
-    classes: Vec<Vector2<f64>>,
-    flutter: Vec<AngleCurve>,
-    tumbling: Vec<AngleCurve>,
-    index: RTree<GeomWithData<[f64; 2], u32>>,
+    pub(super) entries: Vec<Entry>,
+    pub(super) classes: Vec<Vector2<f64>>,
+    pub(super) flutter: Vec<AngleCurve>,
+    pub(super) tumbling: Vec<AngleCurve>,
+    /// Segments of each class, by place.
+    index: Vec<RTree<GeomWithData<[f64; 2], u32>>>,
+    /// Mean place of each class.
+    centers: Vec<[f64; 2]>,
+    flattest: f64,
 }
 
 impl PartialEq for TrajectoryDatabase {
@@ -42,15 +45,6 @@ impl PartialEq for TrajectoryDatabase {
             && (&self.flutter, &self.tumbling) == (&other.flutter, &other.tumbling)
     }
 }
-
-const FILE: FileKind = FileKind {
-    name: "trajectory database",
-    magic: *b"R3DI-TDB",
-    version: 1,
-};
-
-/// Entries, classes or curves that a file may hold.
-const MOST: u64 = 1 << 20;
 
 /// Where a feature vector lies in the index: lengths by ratio, because segments span decades.
 pub(super) fn place(feature: &Vector2<f64>) -> [f64; 2] {
@@ -114,12 +108,26 @@ impl TrajectoryDatabase {
                 tumbling.len(),
             )?;
         }
-        let points = entries
-            .iter()
-            .enumerate()
-            .map(|(index, entry)| GeomWithData::new(place(&entry.segment.feature()), index as u32));
+        let mut members = vec![Vec::new(); classes.len()];
+        let mut flattest = std::f64::consts::FRAC_PI_2;
+        for (index, entry) in entries.iter().enumerate() {
+            let feature = entry.segment.feature();
+            let point = GeomWithData::new(place(&feature), index as u32);
+            members[entry.class as usize].push(point);
+            flattest = flattest.min((-feature.y).atan2(feature.x.abs()));
+        }
+        let mut centers = Vec::with_capacity(classes.len());
+        for (class, members) in members.iter().enumerate() {
+            let count = members.len() as f64;
+            let some = !members.is_empty();
+            Error::check("class of the database", class as f64, some, "of a segment")?;
+            let sum = |axis: usize| members.iter().map(|p| p.geom()[axis]).sum::<f64>();
+            centers.push([sum(0) / count, sum(1) / count]);
+        }
         Ok(Self {
-            index: RTree::bulk_load(points.collect()),
+            index: members.into_iter().map(RTree::bulk_load).collect(),
+            centers,
+            flattest,
             entries,
             classes,
             flutter,
@@ -159,104 +167,42 @@ impl TrajectoryDatabase {
         &self.tumbling
     }
 
-    /// The segment whose feature vector is nearest, by ratio of lengths; of several with the same
-    /// feature vector (they differ in A_y) one is drawn.
-    pub fn nearest(&self, feature: Vector2<f64>, random: &mut impl Rng) -> &Entry {
-        let nearest = self.index.nearest_neighbor(place(&feature));
-        let nearest = nearest.expect("a database has at least one segment");
-        let mut equal: Vec<u32> = self
-            .index
-            .locate_all_at_point(*nearest.geom())
+    /// Angle to the horizontal of the flattest feature vector, rad.
+    pub fn flattest(&self) -> f64 {
+        self.flattest
+    }
+
+    /// The class of a feature vector: the one whose mean is nearest, by ratio of lengths.
+    pub fn class_of(&self, feature: Vector2<f64>) -> u32 {
+        let here = place(&feature);
+        let distance = |center: &[f64; 2]| (center[0] - here[0]).hypot(center[1] - here[1]);
+        let mut best = 0;
+        for (class, center) in self.centers.iter().enumerate() {
+            if distance(center) < distance(&self.centers[best]) {
+                best = class;
+            }
+        }
+        best as u32
+    }
+
+    /// A segment of the class of a feature vector: drawn among the share `variety` ∈ [0, 1] of the class
+    /// that is nearest to the vector by ratio of lengths. With 0 it is the nearest; of several with the
+    /// same feature vector (they differ in A_y) one is drawn.
+    pub fn find(&self, feature: Vector2<f64>, variety: f64, random: &mut impl Rng) -> &Entry {
+        let index = &self.index[self.class_of(feature) as usize];
+        let near = (variety * index.size() as f64) as usize;
+        let rank = random.random_range(0..near.clamp(1, index.size()));
+        let place = place(&feature);
+        let drawn = index.nearest_neighbor_iter(place).nth(rank);
+        let drawn =
+            drawn.expect("a class has at least one segment, and the rank is below its size");
+        let mut equal: Vec<u32> = index
+            .locate_all_at_point(*drawn.geom())
             .map(|point| point.data)
             .collect();
         equal.sort_unstable();
         let chosen = equal[random.random_range(0..equal.len())];
         &self.entries[chosen as usize]
-    }
-
-    /// This as the bytes of a file.
-    pub fn to_bytes(&self) -> Vec<u8> {
-        let mut writer = Writer::default();
-        writer.u64(self.entries.len() as u64);
-        writer.u64(self.classes.len() as u64);
-        writer.u64(self.flutter.len() as u64);
-        writer.u64(self.tumbling.len() as u64);
-        for entry in &self.entries {
-            let flutter = entry.segment.flutter;
-            writer.f64(entry.segment.glide.sign());
-            writer.f64(flutter.horizontal);
-            writer.f64(flutter.vertical);
-            writer.f64(flutter.frequency);
-            for index in [entry.class, entry.flutter, entry.tumbling] {
-                writer.u64(index.into());
-            }
-        }
-        for class in &self.classes {
-            writer.f64(class.x);
-            writer.f64(class.y);
-        }
-        for curve in self.flutter.iter().chain(&self.tumbling) {
-            writer.f64(curve.slope);
-            for angle in curve.angles {
-                writer.f64(angle);
-            }
-        }
-        writer.finish(&FILE)
-    }
-
-    /// Reads what [`TrajectoryDatabase::to_bytes`] wrote.
-    ///
-    /// # Errors
-    /// If the bytes are of another kind or version, truncated, altered, or describe what
-    /// [`TrajectoryDatabase::new`] refuses.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        let mut reader = Reader::new(&FILE, bytes)?;
-        let [entries, classes, flutter, tumbling] = [
-            reader.length("segments of the database", MOST)?,
-            reader.length("classes of the database", MOST)?,
-            reader.length("flutter curves of the database", MOST)?,
-            reader.length("tumbling curves of the database", MOST)?,
-        ];
-        let numbers = 7 * entries + 2 * classes + (1 + AngleCurve::SAMPLES) * (flutter + tumbling);
-        reader.expect_rest(8 * numbers as u64)?;
-        let mut read = Vec::with_capacity(entries);
-        for _ in 0..entries {
-            let sign = reader.f64("glide of a segment")?;
-            let valid = sign == 1.0 || sign == -1.0;
-            Error::check("glide of a segment", sign, valid, "1 or -1")?;
-            let flutter = HarmonicFlutter {
-                horizontal: reader.f64("horizontal amplitude")?,
-                vertical: reader.f64("vertical amplitude")?,
-                frequency: reader.f64("frequency")?,
-            };
-            let glide = if sign > 0.0 {
-                Glide::Right
-            } else {
-                Glide::Left
-            };
-            read.push(Entry {
-                segment: Segment { flutter, glide },
-                class: reader.length("class of a segment", MOST)? as u32,
-                flutter: reader.length("flutter curve of a segment", MOST)? as u32,
-                tumbling: reader.length("tumbling curve of a segment", MOST)? as u32,
-            });
-        }
-        let mut centers = Vec::with_capacity(classes);
-        for _ in 0..classes {
-            let across = reader.f64("class of the database")?;
-            centers.push(Vector2::new(across, reader.f64("class of the database")?));
-        }
-        let mut curves = Vec::with_capacity(flutter + tumbling);
-        for _ in 0..flutter + tumbling {
-            let slope = reader.f64("slope of an angle curve")?;
-            let mut angles = [0.0; AngleCurve::SAMPLES];
-            for angle in &mut angles {
-                *angle = reader.f64("angle of a curve")?;
-            }
-            curves.push(AngleCurve { slope, angles });
-        }
-        let tumbling = curves.split_off(flutter);
-        Self::new(read, centers, curves, tumbling)
     }
 }
 
@@ -266,97 +212,71 @@ mod tests {
     use rand::SeedableRng;
     use rand_pcg::Pcg64Mcg;
 
-    #[test]
-    fn the_shipped_database_is_valid() {
-        let database = TrajectoryDatabase::shipped();
-        assert_eq!(
-            TrajectoryDatabase::from_bytes(&database.to_bytes()).as_ref(),
-            Ok(&*database)
-        );
-        assert!(database.entries().len() > 1000);
+    fn distance(a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
+        let (a, b) = (place(a), place(b));
+        (a[0] - b[0]).hypot(a[1] - b[1])
     }
 
-    /// The index against looking at every segment.
-    #[test]
-    fn the_nearest_is_the_nearest() {
-        let database = TrajectoryDatabase::shipped();
+    fn queries() -> impl Iterator<Item = Vector2<f64>> {
         let mut random = Pcg64Mcg::seed_from_u64(3);
-        let distance = |a: &Vector2<f64>, b: &Vector2<f64>| {
-            let (a, b) = (place(a), place(b));
-            (a[0] - b[0]).hypot(a[1] - b[1])
-        };
-        for _ in 0..200 {
+        (0..200).map(move |_| {
             let across = random.random_range(-4.0..4.0);
-            let feature = Vector2::new(across, -random.random_range(0.1..20.0));
-            let found = database.nearest(feature, &mut random).segment.feature();
-            let all = database.entries().iter().map(|e| e.segment.feature());
-            let least = all.map(|f| distance(&f, &feature)).fold(f64::MAX, f64::min);
-            assert_eq!(distance(&found, &feature), least);
-        }
+            Vector2::new(across, -random.random_range(0.1..20.0))
+        })
     }
 
-    fn small() -> TrajectoryDatabase {
-        let curve = AngleCurve {
-            slope: 1.0,
-            angles: [0.5; AngleCurve::SAMPLES],
-        };
-        let entry = |glide| Entry {
-            segment: Segment {
-                flutter: HarmonicFlutter {
-                    horizontal: 1.0,
-                    vertical: 0.5,
-                    frequency: 2.0,
-                },
-                glide,
-            },
-            class: 0,
-            flutter: 0,
-            tumbling: 0,
-        };
-        TrajectoryDatabase::new(
-            vec![entry(Glide::Left), entry(Glide::Right)],
-            vec![Vector2::new(0.0, -1.0)],
-            vec![curve.clone()],
-            vec![curve],
-        )
-        .unwrap()
-    }
-
+    /// The index of a class against looking at every segment of it.
     #[test]
-    fn damaged_files_are_refused() {
-        let bytes = small().to_bytes();
-        assert_eq!(
-            TrajectoryDatabase::from_bytes(&bytes).as_ref(),
-            Ok(&small())
-        );
-        for length in 0..bytes.len() {
-            assert!(TrajectoryDatabase::from_bytes(&bytes[..length]).is_err());
-        }
-        for at in 0..bytes.len() {
-            let mut altered = bytes.clone();
-            altered[at] ^= 0x04;
-            assert!(TrajectoryDatabase::from_bytes(&altered).is_err(), "{at}");
+    fn the_nearest_of_the_class_is_found() {
+        let database = TrajectoryDatabase::shipped();
+        let mut random = Pcg64Mcg::seed_from_u64(4);
+        for feature in queries() {
+            let class = database.class_of(feature);
+            let found = database.find(feature, 0.0, &mut random);
+            assert_eq!(found.class, class);
+            let members = database.entries().iter().filter(|e| e.class == class);
+            let distances = members.map(|e| distance(&e.segment.feature(), &feature));
+            let least = distances.fold(f64::MAX, f64::min);
+            assert_eq!(distance(&found.segment.feature(), &feature), least);
         }
     }
 
-    /// Rightly framed, but wrong.
+    /// What is drawn is of the query's class and among its nearest, and all of them come up; with
+    /// variety 1 any segment of the class may.
     #[test]
-    fn bad_databases_are_refused() {
-        let refused = |change: &dyn Fn(&mut TrajectoryDatabase)| {
-            let mut bad = small();
-            change(&mut bad);
-            assert!(TrajectoryDatabase::from_bytes(&bad.to_bytes()).is_err());
-        };
-        refused(&|d| d.entries.clear());
-        refused(&|d| d.classes.clear());
-        refused(&|d| d.flutter.clear());
-        refused(&|d| d.entries[1].class = 1);
-        refused(&|d| d.entries[1].tumbling = 7);
-        refused(&|d| d.entries[0].segment.flutter.frequency = 0.0);
-        refused(&|d| d.entries[0].segment.flutter.horizontal = f64::NAN);
-        refused(&|d| d.entries[0].segment.flutter.vertical = -1.0);
-        refused(&|d| d.tumbling[0].angles[3] = f64::INFINITY);
-        refused(&|d| d.flutter[0].slope = -1.0);
-        refused(&|d| d.classes[0].x = f64::NAN);
+    fn variety_draws_within_the_class() {
+        let database = TrajectoryDatabase::shipped();
+        let mut random = Pcg64Mcg::seed_from_u64(5);
+        for feature in queries().take(8) {
+            let class = database.class_of(feature);
+            let members = database.entries().iter().filter(|e| e.class == class);
+            let mut distances: Vec<f64> = members
+                .map(|e| distance(&e.segment.feature(), &feature))
+                .collect();
+            distances.sort_by(f64::total_cmp);
+            for variety in [0.1, 1.0] {
+                let count = (variety * distances.len() as f64) as usize;
+                let mut seen = std::collections::BTreeSet::new();
+                for _ in 0..6000 {
+                    let found = database.find(feature, variety, &mut random);
+                    assert_eq!(found.class, class);
+                    let away = distance(&found.segment.feature(), &feature);
+                    assert!(away <= distances[count - 1]);
+                    seen.insert(away.to_bits());
+                }
+                let mut near: Vec<u64> = distances[..count].iter().map(|d| d.to_bits()).collect();
+                near.dedup();
+                assert_eq!(seen.len(), near.len());
+            }
+        }
+    }
+
+    /// The classes are those of K-means: every segment is nearest to the mean of its own.
+    #[test]
+    fn segments_belong_to_their_class() {
+        let database = TrajectoryDatabase::shipped();
+        for entry in database.entries() {
+            assert_eq!(database.class_of(entry.segment.feature()), entry.class);
+        }
     }
 }

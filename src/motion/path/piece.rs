@@ -21,6 +21,8 @@ pub(super) enum Course<'a> {
     /// A segment between two turning points.
     Glide {
         segment: Segment,
+        /// Factor on its lengths and times; velocities keep.
+        stretch: f64,
         flutter: &'a AngleCurve,
         tumbling: &'a AngleCurve,
         /// Factor on the angles of a turn back: small segments swing little.
@@ -65,12 +67,14 @@ impl Course<'_> {
             },
             Self::Glide {
                 segment,
+                stretch,
                 flutter,
                 tumbling,
                 swing,
                 over,
             } => {
-                let time = t * units.descent / units.length;
+                let length = units.length * stretch;
+                let time = t * units.descent / length;
                 let (p, v) = (segment.position(time), segment.velocity(time));
                 let share = t / duration;
                 // Angles at each end as its turn asks for.
@@ -83,7 +87,7 @@ impl Course<'_> {
                 });
                 let angle = start + (end - start) * smooth(share);
                 Instant {
-                    position: Vector3::new(p.x, p.y, 0.0) * units.length,
+                    position: Vector3::new(p.x, p.y, 0.0) * length,
                     velocity: Vector3::new(v.x, v.y, 0.0) * units.descent,
                     attitude: UnitQuaternion::from_axis_angle(
                         &Vector3::z_axis(),

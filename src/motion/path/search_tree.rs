@@ -14,23 +14,26 @@ use rapier3d::na::Vector2;
 pub struct SearchTree {
     /// Feature vector of a regular glide to the right, in the database's units.
     pub feature: Vector2<f64>,
+    /// Share of the class of a feature vector among which a segment is drawn, the nearest first.
+    pub variety: f64,
 }
 
 impl SearchTree {
     /// Which branch a pattern takes after one, or `None` if it has no tree (steady descent, helix and
     /// spiral).
     pub fn branch(regime: Regime, last: Glide, random: &mut impl Rng) -> Option<Glide> {
-        match regime {
-            Regime::PeriodicFlutter => Some(last.reversed()),
-            Regime::PeriodicTumbling => Some(last),
-            Regime::TransitionalChaotic if random.random_bool(0.5) => Some(last),
-            Regime::TransitionalChaotic => Some(last.reversed()),
-            Regime::SteadyDescent | Regime::TransitionalHelix | Regime::PeriodicSpiral => None,
+        if !regime.has_search_tree() {
+            return None;
         }
+        Some(match regime {
+            Regime::PeriodicFlutter => last.reversed(),
+            Regime::TransitionalChaotic if random.random_bool(0.5) => last.reversed(),
+            _ => last,
+        })
     }
 
-    /// The child of a node: the segment of the database that is nearest to `scale` times the feature
-    /// vector, the way it glides.
+    /// The child of a node: a segment of the class that `scale` times the feature vector belongs to, the
+    /// way it glides, near that vector ([`TrajectoryDatabase::find`]).
     pub fn child<'a>(
         &self,
         database: &'a TrajectoryDatabase,
@@ -39,7 +42,7 @@ impl SearchTree {
         random: &mut impl Rng,
     ) -> &'a Entry {
         let key = Vector2::new(glide.sign() * self.feature.x, self.feature.y) * scale;
-        database.nearest(key, random)
+        database.find(key, self.variety, random)
     }
 }
 
@@ -78,6 +81,7 @@ mod tests {
         let database = TrajectoryDatabase::shipped();
         let tree = SearchTree {
             feature: Vector2::new(0.6, -3.1),
+            variety: 0.0,
         };
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(1);
         for scale in [0.1, 1.0, 10.0] {

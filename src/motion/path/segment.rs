@@ -80,6 +80,11 @@ impl Glide {
         }
     }
 
+    /// The way of a number's sign.
+    pub const fn toward(x: f64) -> Self {
+        if x < 0.0 { Self::Left } else { Self::Right }
+    }
+
     /// The other way.
     pub const fn reversed(self) -> Self {
         match self {

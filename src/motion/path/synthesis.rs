@@ -1,124 +1,38 @@
 //! From a body and a fluid to a fall (thesis § 3.4, § 3.6).
 
-use super::amplitude::{Deviation, chaotic_factor};
-use super::curve::UnifiedCurve;
-use super::database::{Entry, TrajectoryDatabase};
+use super::chain::calmed;
+use super::database::TrajectoryDatabase;
 use super::drift::Drifts;
-use super::piece::{Course, Instant, Piece, Units};
-use super::search_tree::SearchTree;
-use super::segment::Glide;
+use super::params::SynthesisParams;
+use super::piece::{Instant, Units};
 use super::track::{Key, MotionPath};
 use crate::Error;
 use crate::math::{to_real, to_rotation};
-use crate::motion::{MotionGraph, Numbers, PhaseDiagram, Regime};
-use rand::{RngExt, SeedableRng};
+use crate::motion::{MotionGraph, Numbers, Regime};
+use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use rapier3d::math::Real;
-use rapier3d::na::{Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3};
+use rapier3d::na::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// How falls are synthesized.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SynthesisParams {
-    /// h: height of release, m. Default 2.
-    pub height: f64,
-    /// The main regime; `None` (the default) looks it up in `diagram` at Re = U0 L/ν and I*.
-    pub main: Option<Regime>,
-    /// The phase diagram.
-    pub diagram: PhaseDiagram,
-    /// Which regime follows which. Default [`MotionGraph::free_fall`].
-    pub graph: MotionGraph,
-    /// How far falls land from below their release; gives the amplitude too. Default
-    /// [`Deviation::default`].
-    pub deviation: Deviation,
-    /// Ω over U/a: angular frequency of flutter and tumbling, Ω ~ √((ρ_s/ρ_f − 1) g b)/a (thesis
-    /// § 3.3.5). Default 1.
-    pub frequency: f64,
-    /// Amplitude over the A_0 of (3.10), whose swing is just as fast as the fall drifts away, so that
-    /// nothing would ever swing back. Default 2.5 (ours).
-    pub swing: f64,
-    /// How much slower a spiral or helix turns than a flutter swings. Default 3 (ours).
-    pub slowness: f64,
-    /// ε of the helix. Default 0.3.
-    pub ellipticity: f64,
-    /// How long a splice takes, in half periods π/Ω. Default 0.5.
-    pub blend: f64,
-    /// Mean wind, m/s: tumbling and chaotic motion become rarer in it. Default 0.
-    pub wind: f64,
-    /// Wind, in U, at which they are e times rarer; their share falls as exp(−(wind/(this·U))²). Default
-    /// 1.5: the leaf of thesis Fig. 3.17 no longer tumbles at 3 m/s.
-    pub calming_wind: f64,
-    /// Time between keyframes at most, s. Default 1/120.
-    pub interval: f64,
-}
-
-impl Default for SynthesisParams {
-    fn default() -> Self {
-        Self {
-            height: 2.0,
-            main: None,
-            diagram: PhaseDiagram::default(),
-            graph: MotionGraph::free_fall(),
-            deviation: Deviation::default(),
-            frequency: 1.0,
-            swing: 2.5,
-            slowness: 3.0,
-            ellipticity: 0.3,
-            blend: 0.5,
-            wind: 0.0,
-            calming_wind: 1.5,
-            interval: 1.0 / 120.0,
-        }
-    }
-}
-
-impl SynthesisParams {
-    /// # Errors
-    /// [`Error::InvalidParameter`] or [`Error::OutOfRange`] names the value that cannot be;
-    /// [`Error::WrongLength`] if the graph has other than six states.
-    pub fn check(&self) -> Result<(), Error> {
-        Error::check_positive("height", self.height)?;
-        self.diagram.check()?;
-        self.graph.check()?;
-        Error::check_length("states of the motion graph", 6, self.graph.states())?;
-        self.deviation.check()?;
-        Error::check_positive("frequency", self.frequency)?;
-        Error::check_not_negative("swing", self.swing)?;
-        Error::check_positive("slowness", self.slowness)?;
-        Error::check_range("ellipticity", self.ellipticity, 0.0, 10.0)?;
-        Error::check_range("blend", self.blend, 1e-3, 10.0)?;
-        Error::check_not_negative("wind", self.wind)?;
-        Error::check_positive("calming wind", self.calming_wind)?;
-        Error::check_range("interval", self.interval, 1e-4, 0.1)?;
-        Ok(())
-    }
-}
 
 /// Makes falls of one body in one fluid, each from a seed.
 #[derive(Clone, Debug)]
 pub struct Synthesizer {
-    database: Arc<TrajectoryDatabase>,
-    params: SynthesisParams,
-    graph: MotionGraph,
-    main: Regime,
-    units: Units,
+    pub(super) database: Arc<TrajectoryDatabase>,
+    pub(super) params: SynthesisParams,
+    pub(super) graph: MotionGraph,
+    pub(super) main: Regime,
+    pub(super) units: Units,
     /// L/a.
-    aspect: f64,
+    pub(super) aspect: f64,
     /// Ω, rad/s, and amplitude, m.
-    frequency: f64,
-    amplitude: f64,
+    pub(super) frequency: f64,
+    pub(super) amplitude: f64,
 }
 
 /// Keyframes that a path may have.
 const MOST_KEYS: f64 = 1e6;
-
-/// A level of the search: a pattern, and what it takes from the database.
-struct Level<'a> {
-    regime: Regime,
-    glide: Option<(Glide, &'a Entry, f64)>,
-    duration: f64,
-}
 
 impl Synthesizer {
     /// For a body with these numbers and a longest extent of `length` m (the thesis's L; its a is the
@@ -190,8 +104,8 @@ impl Synthesizer {
     /// A fall whose regimes the Markov chain draws, one transition per turning point. The same seed
     /// gives the same fall.
     ///
-    /// It lands at (r, −h, 0), r drawn from the [`Deviation`], less for the time that it falls steadily
-    /// (a tenth counts); whoever places it in the world turns it about the vertical.
+    /// It takes h/U and lands at a turning point, at (r, −h, s), r and s drawn from the
+    /// [`Deviation`](super::Deviation), less for the time that it falls steadily (a tenth counts); whoever places it in the world turns it about the vertical.
     pub fn path(&self, seed: u64) -> MotionPath {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let mut state: Option<usize> = None;
@@ -201,7 +115,7 @@ impl Synthesizer {
                 Some(state) => self.graph.draw_next(state, random),
             };
             state = Some(next);
-            Regime::ALL[next]
+            (Regime::ALL[next], f64::INFINITY)
         })
     }
 
@@ -223,7 +137,10 @@ impl Synthesizer {
         Ok(self.fall(&mut random, |time, _| {
             // The boundary nearest to a turning point.
             let index = ((time + 0.25 * PI / self.frequency) / share) as usize;
-            *regimes.get(index).unwrap_or(last)
+            (
+                *regimes.get(index).unwrap_or(last),
+                (index + 1) as f64 * share,
+            )
         }))
     }
 
@@ -235,24 +152,22 @@ impl Synthesizer {
     fn fall(
         &self,
         random: &mut Pcg64Mcg,
-        regime: impl FnMut(f64, &mut Pcg64Mcg) -> Regime,
+        regime: impl FnMut(f64, &mut Pcg64Mcg) -> (Regime, f64),
     ) -> MotionPath {
         let duration = self.duration();
         let levels = self.levels(duration, regime, random);
         let pieces = self.splice(&levels, random);
         let drifts = Drifts::of(&pieces, self.params.blend * PI / self.frequency);
-        let distance = self
-            .params
-            .deviation
-            .draw(self.aspect, self.params.height, random)
-            * (drifts.until(duration).0 / duration);
-        let landing = Vector3::new(distance, -self.params.height, 0.0);
+        let deviation = &self.params.deviation;
+        let drawn = deviation.draw(self.aspect, self.params.height, random);
+        let [along, across] = drawn.map(|r| r * (drifts.until(duration).0 / duration));
+        let landing = Vector3::new(along, -self.params.height, across);
         let at = |time: f64| {
             let after = pieces.partition_point(|piece| piece.start <= time);
             let piece = &pieces[after.max(1) - 1];
             piece.at(time - piece.start, &self.units)
         };
-        // What is left to the landing is spread over the fall.
+        // What is left to the landing is spread over the fall; it is level but for rounding.
         let drift = (landing - at(duration).position) / drifts.until(duration).0;
         let count = (duration / self.params.interval).ceil().max(1.0);
         let interval = duration / count;
@@ -283,147 +198,6 @@ impl Synthesizer {
         MotionPath::new(interval as Real, keys.collect(), regimes)
             .expect("finite parameters give finite keys")
     }
-
-    /// Draws levels until the time is up.
-    fn levels(
-        &self,
-        duration: f64,
-        mut regime: impl FnMut(f64, &mut Pcg64Mcg) -> Regime,
-        random: &mut Pcg64Mcg,
-    ) -> Vec<Level<'_>> {
-        let regular = PI / self.frequency;
-        let unit = self.units.length / self.units.descent;
-        let tree = SearchTree {
-            feature: Vector2::new(2.0 * self.amplitude / self.units.length, -regular / unit),
-        };
-        let mut levels = Vec::new();
-        let mut time = 0.0;
-        let mut last = if random.random_bool(0.5) {
-            Glide::Left
-        } else {
-            Glide::Right
-        };
-        while time < duration {
-            let regime = regime(time, random);
-            let mut level = Level {
-                regime,
-                glide: None,
-                duration: regular,
-            };
-            if let Some(glide) = SearchTree::branch(regime, last, random) {
-                let scale = match regime {
-                    Regime::TransitionalChaotic => chaotic_factor(random),
-                    _ => 1.0,
-                };
-                let entry = tree.child(&self.database, glide, scale, random);
-                level.duration = entry.segment.duration() * unit;
-                level.glide = Some((glide, entry, scale));
-                last = glide;
-            }
-            time += level.duration;
-            levels.push(level);
-        }
-        levels
-    }
-
-    /// Puts levels end to end; what goes on in the same spiral, helix or straight fall is one piece.
-    fn splice<'a>(&'a self, levels: &[Level<'a>], random: &mut Pcg64Mcg) -> Vec<Piece<'a>> {
-        let blend = self.params.blend * PI / self.frequency;
-        let mut pieces: Vec<Piece<'a>> = Vec::new();
-        let mut start = 0.0;
-        let mut index = 0;
-        while index < levels.len() {
-            let level = &levels[index];
-            let mut duration = level.duration;
-            let course = if let Some((glide, entry, scale)) = level.glide {
-                // A body turns over where it glides on the same way, unless the glides are too short or
-                // too different: it would have to spin up or stop at once.
-                let over = |neighbour: Option<&Level>| {
-                    let neighbour = neighbour.and_then(|level| level.glide);
-                    neighbour.is_some_and(|(g, _, s)| {
-                        let (small, large) = (s.min(scale), s.max(scale));
-                        g == glide && small >= 0.5 && large <= 2.0 * small
-                    })
-                };
-                Course::Glide {
-                    segment: entry.segment,
-                    flutter: &self.database.flutter()[entry.flutter as usize],
-                    tumbling: &self.database.tumbling()[entry.tumbling as usize],
-                    swing: scale.min(1.0),
-                    over: [
-                        over(index.checked_sub(1).map(|i| &levels[i])),
-                        over(levels.get(index + 1)),
-                    ],
-                }
-            } else {
-                while levels
-                    .get(index + 1)
-                    .is_some_and(|l| l.regime == level.regime)
-                {
-                    index += 1;
-                    duration += levels[index].duration;
-                }
-                self.course(level.regime, random)
-            };
-            let before = pieces
-                .last()
-                .map(|piece: &Piece| piece.at(piece.duration, &self.units));
-            pieces.push(Piece::after(
-                before.as_ref(),
-                course,
-                level.regime,
-                start,
-                duration,
-                blend,
-                &self.units,
-            ));
-            start += duration;
-            index += 1;
-        }
-        pieces
-    }
-
-    /// What a regime without a search tree follows (3.8).
-    fn course<'a>(&self, regime: Regime, random: &mut Pcg64Mcg) -> Course<'a> {
-        let amplitude = self.amplitude;
-        let frequency = self.frequency / self.params.slowness;
-        let curve = match regime {
-            Regime::PeriodicSpiral => {
-                UnifiedCurve::spiral(amplitude, frequency, self.units.descent)
-            }
-            Regime::TransitionalHelix => UnifiedCurve::helix(
-                amplitude,
-                self.params.ellipticity,
-                frequency,
-                self.units.descent,
-            ),
-            _ => return Course::Straight,
-        };
-        let sense = if random.random_bool(0.5) { 1.0 } else { -1.0 };
-        Course::Curve { curve, sense }
-    }
-}
-
-/// The graph with tumbling and chaotic motion `share` times as likely to begin or go on.
-fn calmed(graph: &MotionGraph, share: f64) -> Result<MotionGraph, Error> {
-    let states = graph.states();
-    let calm = |p: f64, to: usize| match Regime::ALL[to] {
-        Regime::TransitionalChaotic | Regime::PeriodicTumbling => p * share,
-        _ => p,
-    };
-    let row = |of: &dyn Fn(usize) -> f64, fallback: usize| -> Vec<f64> {
-        let row: Vec<f64> = (0..states).map(|to| calm(of(to), to)).collect();
-        let sum: f64 = row.iter().sum();
-        if sum > 0.0 {
-            row.into_iter().map(|p| p / sum).collect()
-        } else {
-            (0..states)
-                .map(|to| f64::from(u8::from(to == fallback)))
-                .collect()
-        }
-    };
-    let rows = (0..states).map(|from| row(&|to| graph.probability(from, to), from));
-    MotionGraph::new(row(&|to| graph.start(to), 0), rows.collect())
 }
 
 #[cfg(test)]
@@ -431,6 +205,7 @@ mod tests {
     use super::*;
     use crate::Fluid;
     use crate::motion::Outline;
+    use crate::motion::path::Deviation;
     use crate::motion::path::motion_classes;
 
     /// A leaf like the thesis's: 7.3 × 4.2 cm, 0.3 mm, 400 kg/m³.

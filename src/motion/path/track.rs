@@ -24,13 +24,40 @@ pub struct Key {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "RawPath")
 )]
 pub struct MotionPath {
     interval: Real,
     per_interval: Real,
     keys: Vec<Key>,
     regimes: Vec<(Real, Regime)>,
+}
+
+/// A path as it is read, not checked yet.
+#[cfg(feature = "serde-serialize")]
+#[derive(serde::Deserialize)]
+struct RawPath {
+    interval: Real,
+    per_interval: Real,
+    keys: Vec<Key>,
+    regimes: Vec<(Real, Regime)>,
+}
+
+#[cfg(feature = "serde-serialize")]
+impl TryFrom<RawPath> for MotionPath {
+    type Error = Error;
+
+    fn try_from(raw: RawPath) -> Result<Self, Error> {
+        let path = Self {
+            interval: raw.interval,
+            per_interval: raw.per_interval,
+            keys: raw.keys,
+            regimes: raw.regimes,
+        };
+        path.check()?;
+        Ok(path)
+    }
 }
 
 #[cfg(feature = "serde-serialize")]
@@ -91,6 +118,16 @@ impl MotionPath {
             let norm = f64::from(key.attitude.length());
             let valid = (norm - 1.0).abs() < 1e-3;
             Error::check("norm of an attitude", norm, valid, "1")?;
+        }
+        for pair in self.keys.windows(2) {
+            let cosine = f64::from(pair[0].attitude.dot(pair[1].attitude));
+            let alike = cosine >= 0.0;
+            Error::check(
+                "product of neighbouring attitudes",
+                cosine,
+                alike,
+                "zero or positive",
+            )?;
         }
         let first = f64::from(self.regimes[0].0);
         Error::check("time of the first regime", first, first == 0.0, "0")?;
@@ -165,9 +202,8 @@ impl MotionPath {
     /// [`MotionPath::new`] refuses.
     #[cfg(feature = "serde-serialize")]
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
-        let loaded: Self = crate::file::decode(&FILE, bytes)?;
-        loaded.check()?;
-        Ok(loaded)
+        let raw: RawPath = crate::file::decode(&FILE, bytes)?;
+        raw.try_into()
     }
 }
 

@@ -1,0 +1,305 @@
+//! One played body: how it is moved along its path, and what contacts do to it.
+
+use super::player::{AtContact, Drive, MotionPlayer};
+use crate::motion::path::{MotionPath, WindResponse};
+use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodyType};
+use rapier3d::geometry::{ActiveCollisionTypes, ColliderSet, NarrowPhase};
+use rapier3d::math::{Pose, Real, Rotation, Vector};
+use std::sync::Arc;
+
+/// A played body.
+#[derive(Clone)]
+pub(super) struct Slot {
+    pub handle: RigidBodyHandle,
+    pub path: Arc<MotionPath>,
+    pub origin: Vector,
+    pub turn: Rotation,
+    /// From the body's frame to the plate's axes.
+    pub to_plate: Rotation,
+    pub drive: Drive,
+    pub at_contact: AtContact,
+    pub clock: Real,
+    /// Seconds since something touched it.
+    pub free: Real,
+    pub waiting: bool,
+    /// Whether the force model has been told to let go.
+    pub taken: bool,
+    /// Velocity taken from the wind, m/s.
+    pub blown: Vector,
+    /// What a contact left of a kinematic body's own motion.
+    pub astray: Option<Astray>,
+    /// Whether its colliders have been told to look for contacts that rapier leaves out.
+    pub watched: bool,
+    /// The path at `clock`, turned: position from the origin, and attitude of the body's frame.
+    pub now: (Vector, Rotation),
+}
+
+/// How a kinematic body differs from its path after a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Astray {
+    /// Rotation vector from the path's attitude, rad.
+    pub rotation: Vector,
+    /// Velocity relative to the path's, m/s.
+    pub velocity: Vector,
+}
+
+/// Time in which such differences fade, s: the default compliance.
+const ASTRAY: Real = 0.1;
+
+/// What is the same for all bodies in a step.
+pub(super) struct Step {
+    pub dt: Real,
+    /// Velocity by which gravity moves a body within the step.
+    pub sag: Vector,
+    pub angle: Option<WindResponse>,
+}
+
+impl Slot {
+    /// A body at the beginning of its path.
+    pub fn new(handle: RigidBodyHandle, player: &MotionPlayer) -> Self {
+        let release = player.release(Vector::ZERO);
+        Self {
+            handle,
+            path: player.path.clone(),
+            origin: player.origin,
+            turn: Rotation::from_axis_angle(Vector::Y, player.heading),
+            now: (release.translation - player.origin, release.rotation),
+            to_plate: player.axes.inverse(),
+            drive: player.drive,
+            at_contact: player.at_contact,
+            clock: 0.0,
+            free: Real::INFINITY,
+            waiting: false,
+            taken: false,
+            blown: Vector::ZERO,
+            astray: None,
+            watched: false,
+        }
+    }
+
+    /// Lets rapier look for contacts of a kinematic body with all kinds of bodies: by default it leaves
+    /// out those with fixed and kinematic ones, which move neither.
+    #[cold]
+    pub fn watch(&mut self, body: &RigidBody, colliders: &mut ColliderSet) {
+        self.watched = true;
+        if self.drive != Drive::Kinematic || self.at_contact == AtContact::Ignore {
+            return;
+        }
+        for handle in body.colliders() {
+            if let Some(collider) = colliders.get_mut(*handle) {
+                let others = ActiveCollisionTypes::KINEMATIC_FIXED
+                    | ActiveCollisionTypes::KINEMATIC_KINEMATIC;
+                collider.set_active_collision_types(collider.active_collision_types() | others);
+            }
+        }
+    }
+
+    /// Moves the body for a step; whether it goes on being played.
+    #[inline]
+    pub fn advance(
+        &mut self,
+        body: &mut RigidBody,
+        narrow_phase: &NarrowPhase,
+        wind: Option<Vector>,
+        step: &Step,
+    ) -> bool {
+        match self.drive {
+            Drive::Kinematic if body.body_type() == RigidBodyType::KinematicPositionBased => {
+                if self.at_contact != AtContact::Ignore && touches(body, narrow_phase) {
+                    self.let_go(body, step.dt);
+                    return self.at_contact != AtContact::HandOver;
+                }
+                self.carry(body, wind, step);
+                let done = self.clock >= self.path.duration();
+                if done {
+                    body.set_body_type(RigidBodyType::Dynamic, true);
+                }
+                !done
+            }
+            Drive::Kinematic if self.waiting && body.is_dynamic() => {
+                self.free = match touches(body, narrow_phase) {
+                    true => 0.0,
+                    false => self.free + step.dt,
+                };
+                let after = match self.at_contact {
+                    AtContact::Resume { after } => after,
+                    _ => 0.0,
+                };
+                if self.free > after {
+                    self.take_up(body);
+                    self.carry(body, wind, step);
+                }
+                true
+            }
+            Drive::Velocity { compliance } if body.is_dynamic() => {
+                self.drive(body, narrow_phase, compliance, wind, step)
+            }
+            _ => true,
+        }
+    }
+
+    /// Moves a kinematic body to where the path is at the end of the step.
+    #[inline]
+    fn carry(&mut self, body: &mut RigidBody, wind: Option<Vector>, step: &Step) {
+        self.taken = true;
+        let lean = self.blow(wind, step);
+        self.proceed(step.dt);
+        let mut rotation = leaning(lean, self.now.1);
+        if let Some(astray) = &mut self.astray {
+            let left = ASTRAY / (ASTRAY + step.dt);
+            astray.rotation *= left;
+            astray.velocity *= left;
+            self.origin += astray.velocity * step.dt;
+            rotation = Rotation::from_scaled_axis(astray.rotation) * rotation;
+            if astray.rotation.length() < 1e-4 && astray.velocity.length() < 1e-4 {
+                self.astray = None;
+            }
+        }
+        let com = self.origin + self.now.0;
+        let origin = com - rotation * body.local_center_of_mass();
+        body.set_next_kinematic_position(Pose::from_parts(origin, rotation.normalize()));
+    }
+
+    /// Makes a kinematic body dynamic, with the velocities that it has on its path.
+    fn let_go(&mut self, body: &mut RigidBody, dt: Real) {
+        // Rapier keeps the velocities of the last step's displacement; in the first step there is none.
+        if self.clock == 0.0 {
+            let next = self.path.at(dt);
+            let attitude = self.turn * next.attitude * self.to_plate;
+            body.set_linvel(self.turn * self.path.at(0.0).velocity, true);
+            body.set_angvel(vector(attitude * self.now.1.inverse()) / dt, true);
+        }
+        body.set_body_type(RigidBodyType::Dynamic, true);
+        (self.waiting, self.taken, self.free) = (true, false, 0.0);
+        self.astray = None;
+    }
+
+    /// Makes a body kinematic again that nothing touches any more: its path goes on from where it is, and
+    /// with its attitude and velocity at first.
+    fn take_up(&mut self, body: &mut RigidBody) {
+        self.waiting = false;
+        self.anchor(*body.position() * body.local_center_of_mass());
+        let path = self.turn * self.path.at(self.clock).velocity + self.blown;
+        let away = *body.rotation() * self.now.1.inverse();
+        self.astray = Some(Astray {
+            rotation: away.to_scaled_axis(),
+            velocity: body.linvel() - path,
+        });
+        body.set_body_type(RigidBodyType::KinematicPositionBased, true);
+    }
+
+    fn drive(
+        &mut self,
+        body: &mut RigidBody,
+        narrow_phase: &NarrowPhase,
+        compliance: Real,
+        wind: Option<Vector>,
+        step: &Step,
+    ) -> bool {
+        let dt = step.dt;
+        let touching = self.at_contact != AtContact::Ignore && touches(body, narrow_phase);
+        self.free = if touching { 0.0 } else { self.free + dt };
+        let com = *body.position() * body.local_center_of_mass();
+        match self.at_contact {
+            AtContact::HandOver if touching => return false,
+            AtContact::Resume { after } => {
+                if touching {
+                    (self.waiting, self.taken) = (true, false);
+                } else if self.waiting && self.free > after {
+                    self.waiting = false;
+                    self.anchor(com);
+                    // The velocity of the path comes back as after a contact.
+                    self.free = dt;
+                }
+                if self.waiting {
+                    return true;
+                }
+            }
+            AtContact::Deflect if touching => self.anchor(com),
+            _ => {}
+        }
+        self.taken = true;
+        if !body.is_fast_rotation_allowed() {
+            body.set_allow_fast_rotation(true);
+        }
+        // Where the path was before this step's wind: the wind's displacement is not an error.
+        let from = self.origin + self.now.0;
+        let lean = self.blow(wind, step);
+        let turned = leaning(lean, self.now.1);
+        let before = self.now.0;
+        self.proceed(dt);
+        let mut moved = self.now.0 - before;
+        if lean.is_some() {
+            moved += self.blown * dt;
+        }
+        let rotation = leaning(lean, self.now.1);
+        // Share of an error that is worked off in this step (implicit Euler).
+        let k = dt / (dt + compliance);
+        let linear = (moved + (from - com) * k) / dt - step.sag;
+        let away = turned * body.rotation().inverse();
+        let angular = (vector(rotation * turned.inverse()) + vector(away) * k) / dt;
+        let (linear, angular) = if self.free < 8.0 * compliance {
+            let s = 1.0 - (-self.free / compliance).exp();
+            (
+                body.linvel() + (linear - body.linvel()) * s,
+                body.angvel() + (angular - body.angvel()) * s,
+            )
+        } else {
+            (linear, angular)
+        };
+        body.set_linvel(linear, true);
+        body.set_angvel(angular, true);
+        self.clock < self.path.duration()
+    }
+
+    /// Takes on the wind; returns how far it leans the body.
+    #[inline]
+    fn blow(&mut self, wind: Option<Vector>, step: &Step) -> Option<Rotation> {
+        let (wind, response) = (wind?, step.angle?);
+        let wind = if wind.is_finite() { wind } else { Vector::ZERO };
+        self.blown += (wind - self.blown) * (step.dt / (response.delay + step.dt));
+        self.origin += self.blown * step.dt;
+        Some(response.lean(self.blown))
+    }
+
+    /// Moves on along the path.
+    #[inline]
+    fn proceed(&mut self, dt: Real) {
+        self.clock += dt;
+        let key = self.path.at(self.clock);
+        self.now = (
+            self.turn * key.position,
+            self.turn * key.attitude * self.to_plate,
+        );
+    }
+
+    /// Lets the path go through a point at the present time.
+    fn anchor(&mut self, com: Vector) {
+        self.origin = com - self.now.0;
+    }
+}
+
+/// A rotation in the wind.
+#[inline]
+fn leaning(lean: Option<Rotation>, rotation: Rotation) -> Rotation {
+    lean.map_or(rotation, |lean| lean * rotation)
+}
+
+/// Whether a body touches another.
+#[inline]
+fn touches(body: &RigidBody, narrow_phase: &NarrowPhase) -> bool {
+    body.colliders().iter().any(|collider| {
+        narrow_phase
+            .contact_pairs_with(*collider)
+            .any(|pair| pair.has_any_active_contact())
+    })
+}
+
+/// Rotation vector of a rotation, to fifth order in its angle.
+#[inline]
+fn vector(rotation: Rotation) -> Vector {
+    let part = Vector::new(rotation.x, rotation.y, rotation.z);
+    let s2 = part.length_squared();
+    let sign = if rotation.w < 0.0 { -2.0 } else { 2.0 };
+    part * (sign * (1.0 + s2 / 6.0 + 0.075 * s2 * s2))
+}
