@@ -15,6 +15,7 @@ mod players;
 pub mod preset;
 mod readout;
 mod step;
+mod stir;
 mod stream;
 mod wing;
 
