@@ -63,15 +63,17 @@ impl NoiseStream {
 /// bits on every platform and in every lane. The largest that 32 bits can make is 6.8.
 #[inline(always)]
 pub(crate) fn gaussian<T: Scalar>([a, b, c, d]: [T; 4]) -> [T; 3] {
-    let (zero, quarter) = (a.lit(0.0), a.lit(0.25));
-    let first = (a.lit(-2.0) * a.logarithm()).larger(zero).root();
-    let second = (c.lit(-2.0) * c.logarithm()).larger(zero).root();
-    let from_quarter = quarter - b.absolute();
-    let up = sine_of_turns(quarter - from_quarter.absolute());
+    // ln a ≤ 0 for a ≤ 1. Of half the angle, so that no sign has to be chosen.
+    let first = (a.lit(-2.0) * a.logarithm()).root();
+    let second = (c.lit(-2.0) * c.logarithm()).root();
+    let (half, one, two) = (a.lit(0.5), a.lit(1.0), a.lit(2.0));
+    let (b, d) = (b * half, d * half);
+    let (sine, other) = (sine_of_turns(b), sine_of_turns(d));
+    let cosine = sine_of_turns(a.lit(0.25) - b.absolute());
     [
-        first * sine_of_turns(from_quarter),
-        first * (-up).where_less(b, zero, up),
-        second * sine_of_turns(quarter - d.absolute()),
+        first * (one - two * sine * sine),
+        first * (two * sine * cosine),
+        second * (one - two * other * other),
     ]
 }
 
