@@ -271,7 +271,7 @@ mod tests {
     use std::sync::atomic::Ordering;
 
     /// Bodies of every law, thin and thick, centered and not, free and on the ground, of kinds that
-    /// differ from neighbour to neighbour, in a stream; their poses after a second.
+    /// differ from neighbour to neighbour, in a turbulent stream; their poses after a second.
     fn poses() -> Vec<[u32; 7]> {
         let mut world = PhysicsWorld::new();
         let ground = ColliderBuilder::cuboid(10.0, 0.5, 10.0).translation(Vector::Y * -0.6);

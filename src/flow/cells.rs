@@ -215,3 +215,91 @@ impl<S: Simd> Jet<f32x8<S>> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::flow::{Flow, FlowSample, GridFlow};
+    use crate::math::NARROW;
+    use crate::turbulence::NoiseStream;
+    use rapier3d::math::Vector;
+    use std::sync::atomic::Ordering;
+
+    /// A grid of noise, flat or not, that repeats along x alone.
+    fn noisy(nz: usize) -> GridFlow {
+        let noise = NoiseStream::new(1, 0);
+        let dims = [7, 5, nz];
+        let count = (7 * 5 * nz) as u64;
+        let velocities: Vec<_> = (0..count).map(|i| noise.vector(i, 0)).collect();
+        let spacing = Vector::new(0.5, 1.0, 0.7);
+        GridFlow::new(
+            dims,
+            [true, false, false],
+            -Vector::ONE,
+            spacing,
+            &velocities,
+        )
+        .unwrap()
+    }
+
+    fn points() -> Vec<Vector> {
+        let noise = NoiseStream::new(2, 0);
+        (0..61).map(|i| noise.vector(i, 0) * 5.0).collect()
+    }
+
+    fn sampled(flow: &dyn Flow, points: &[Vector]) -> Vec<FlowSample> {
+        let mut samples = vec![FlowSample::default(); points.len()];
+        flow.sample(points, 0.7, &mut samples);
+        samples
+    }
+
+    /// To the bit: what is found at a point depends neither on the points beside it nor on the machine's
+    /// registers, and up to rounding it is what is found there alone.
+    #[test]
+    fn a_point_is_looked_up_alike_alone_and_among_others() {
+        let mut flows: Vec<Box<dyn Flow>> = vec![Box::new(noisy(1)), Box::new(noisy(4))];
+        #[cfg(feature = "bake")]
+        flows.push(Box::new({
+            let params = crate::flow::WindParams {
+                nodes: [8, 8, 4],
+                up: Vector::Y,
+                ..Default::default()
+            };
+            crate::flow::SpectralWind::bake(&params).unwrap()
+        }));
+        for flow in &flows {
+            let points = points();
+            let together = sampled(&**flow, &points);
+            NARROW.store(true, Ordering::Relaxed);
+            let narrow = sampled(&**flow, &points);
+            NARROW.store(false, Ordering::Relaxed);
+            assert_eq!(together, narrow);
+            for (point, sample) in points.iter().zip(&together) {
+                assert_eq!(sampled(&**flow, &[*point]), [*sample]);
+                let velocity = flow.velocity(*point, 0.7);
+                // A few roundings of numbers of about 5.
+                assert!((velocity - sample.velocity).length() < 1.0e-5, "{point}");
+            }
+        }
+    }
+
+    /// Far away, and where there is no place at all.
+    #[test]
+    fn any_point_has_a_flow() {
+        let wild = [1.0e30, -1.0e30, f32::MAX, f32::INFINITY, f32::NAN, 1.0e9];
+        for nz in [1, 4] {
+            let flow = noisy(nz);
+            for x in wild {
+                for point in [
+                    Vector::new(x, 0.3, 0.3),
+                    Vector::new(0.3, x, 0.3),
+                    Vector::new(0.3, 0.3, -x),
+                    Vector::splat(x),
+                ] {
+                    let sample = sampled(&flow, &[point])[0];
+                    assert!((sample.velocity + sample.vorticity).is_finite(), "{point}");
+                    assert!(flow.velocity(point, 0.7).is_finite(), "{point}");
+                }
+            }
+        }
+    }
+}
