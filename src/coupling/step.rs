@@ -471,7 +471,6 @@ impl Immersion {
                 angular: row(on_top.1),
                 force: row(force),
                 torque: row(torque),
-                ..Extra::default()
             });
             batch.extras.len() as u32 - 1
         };

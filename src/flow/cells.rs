@@ -40,6 +40,13 @@ pub(crate) struct Jet<V> {
     pub dz: V,
 }
 
+/// A value and its differences across one plane of a cell.
+struct Plane<V> {
+    value: V,
+    dx: V,
+    dy: V,
+}
+
 /// What is kept at a node, as the numbers that are interpolated side by side.
 pub(crate) trait Node: Copy {
     /// The registers of these numbers.
@@ -153,7 +160,8 @@ impl<S: Simd> Cells<S> {
                 value: low.value,
                 dx: low.dx * dx,
                 dy: low.dy * dy,
-                dz: (low.value - low.value) * dz,
+                // Node values are finite.
+                dz: low.value * 0.0,
             };
         }
         let high = self.plane(nodes, first + plane as usize, row as usize, x, y);
@@ -175,7 +183,7 @@ impl<S: Simd> Cells<S> {
         row: usize,
         x: f32,
         y: f32,
-    ) -> Jet<N::Numbers<S>> {
+    ) -> Plane<N::Numbers<S>> {
         let near = &nodes[first..first + 2];
         let far = &nodes[first + row..first + row + 2];
         let (a, b) = (near[0].load(self.simd), near[1].load(self.simd));
@@ -183,11 +191,10 @@ impl<S: Simd> Cells<S> {
         let (near_dx, far_dx) = (b - a, d - c);
         let (near, far) = (a + near_dx * x, c + far_dx * x);
         let dy = far - near;
-        Jet {
+        Plane {
             value: near + dy * y,
             dx: near_dx + (far_dx - near_dx) * y,
             dy,
-            dz: dy,
         }
     }
 }
