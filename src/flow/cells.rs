@@ -263,17 +263,20 @@ mod tests {
     /// registers, and up to rounding it is what is found there alone.
     #[test]
     fn a_point_is_looked_up_alike_alone_and_among_others() {
-        let mut flows: Vec<Box<dyn Flow>> = vec![Box::new(noisy(1)), Box::new(noisy(4))];
-        #[cfg(feature = "bake")]
-        flows.push(Box::new({
-            let params = crate::flow::WindParams {
-                nodes: [8, 8, 4],
-                up: Vector::Y,
-                ..Default::default()
-            };
-            crate::flow::SpectralWind::bake(&params).unwrap()
-        }));
-        for flow in &flows {
+        let flows: &[Box<dyn Flow>] = &[
+            Box::new(noisy(1)),
+            Box::new(noisy(4)),
+            #[cfg(feature = "bake")]
+            Box::new({
+                let params = crate::flow::WindParams {
+                    nodes: [8, 8, 4],
+                    up: Vector::Y,
+                    ..Default::default()
+                };
+                crate::flow::SpectralWind::bake(&params).unwrap()
+            }),
+        ];
+        for flow in flows {
             let points = points();
             let together = sampled(&**flow, &points);
             NARROW.store(true, Ordering::Relaxed);
