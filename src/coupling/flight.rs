@@ -3,6 +3,7 @@
 use super::handover::Pace;
 use super::immersion::Slot;
 use super::kind::{Kind, Route, StepConstants};
+use super::stream::Stream;
 use super::wing::Wing;
 use crate::dynamics::Integrator;
 use crate::math::{Lanes, MOST_LANES, OnLanes, Row, dispatch};
@@ -52,18 +53,13 @@ pub(super) struct Flyer {
     pub rapier_angular: Row,
 }
 
-/// What most bodies in still fluid have none of.
+/// What most bodies have none of.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Extra {
-    /// Velocities relative to the fluid that come on top of what was integrated: what happened to
-    /// the body since, or all of its velocity. m/s and rad/s.
+    /// Velocities that come on top of what was integrated: what happened to the body since, or all of
+    /// its velocity. m/s and rad/s.
     pub linear: Row,
     pub angular: Row,
-    /// Velocity of the fluid, m/s, its vorticity, 1/s, and the change of its velocity since the last
-    /// step.
-    pub stream: Row,
-    pub vorticity: Row,
-    pub stream_change: Row,
     /// User's force, N, and torque, N·m.
     pub force: Row,
     pub torque: Row,
@@ -155,9 +151,6 @@ impl<'a> Air<'a> {
         const NOTHING: &Extra = &Extra {
             linear: [0.0; 4],
             angular: [0.0; 4],
-            stream: [0.0; 4],
-            vorticity: [0.0; 4],
-            stream_change: [0.0; 4],
             force: [0.0; 4],
             torque: [0.0; 4],
         };
@@ -169,10 +162,17 @@ impl<'a> Air<'a> {
 const WINDOW: usize = 64;
 
 /// Advances `flyers`, whose kinds must all be of the same `route`, with the widest instructions that
-/// the machine has; they round alike on all machines.
-pub(super) fn fly(flyers: &[Flyer], landings: &mut [Landing], route: Route, air: Air) {
+/// the machine has; they round alike on all machines. `streams` has one entry per flyer, or none.
+pub(super) fn fly(
+    flyers: &[Flyer],
+    streams: &[Stream],
+    landings: &mut [Landing],
+    route: Route,
+    air: Air,
+) {
     dispatch(Flock {
         flyers,
+        streams,
         landings,
         route,
         air,
@@ -181,6 +181,7 @@ pub(super) fn fly(flyers: &[Flyer], landings: &mut [Landing], route: Route, air:
 
 struct Flock<'a> {
     flyers: &'a [Flyer],
+    streams: &'a [Stream],
     landings: &'a mut [Landing],
     route: Route,
     air: Air<'a>,
@@ -193,7 +194,10 @@ impl OnLanes for Flock<'_> {
         // The kind that the last group was of.
         let mut last: Option<(u32, StepConstants<Lanes<S>>)> = None;
         let windows = self.flyers.chunks(WINDOW);
-        for (flyers, landings) in windows.zip(self.landings.chunks_mut(WINDOW)) {
+        let landings = self.landings.chunks_mut(WINDOW);
+        for (number, (flyers, landings)) in windows.zip(landings).enumerate() {
+            let from = number * WINDOW;
+            let streams = self.streams.get(from..from + flyers.len());
             let order = by_substeps(flyers, air);
             for group in order[..flyers.len()].chunks(Lanes::<S>::COUNT) {
                 // A last group that is not full repeats its last body.
@@ -222,6 +226,7 @@ impl OnLanes for Flock<'_> {
                     constants,
                     symmetric: self.route.symmetric,
                     turned_by_buoyancy: (0..MOST_LANES).any(|lane| kind(lane).buoyancy_turns),
+                    streams,
                     index,
                     landings: &mut *landings,
                     air,
@@ -257,25 +262,37 @@ fn by_substeps(flyers: &[Flyer], air: Air) -> [u8; WINDOW] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flow::Shear;
+    use crate::flow::{GridFlow, Layers, Shear, Vortex};
     use crate::math::NARROW;
+    use crate::turbulence::{Turbulence, TurbulenceState};
     use crate::{Fluid, HydroProperties, ImmersedBody, Immersion, RapierSets};
     use crate::{StochasticLaw, ThesisLaw, ViscousLaw};
     use rapier3d::prelude::*;
     use std::sync::atomic::Ordering;
 
     /// Bodies of every law, thin and thick, centered and not, free and on the ground, of kinds that
-    /// differ from neighbour to neighbour, in a stream; their poses after a second.
+    /// differ from neighbour to neighbour, in a turbulent stream; their poses after a second.
     fn poses() -> Vec<[u32; 7]> {
         let mut world = PhysicsWorld::new();
         let ground = ColliderBuilder::cuboid(10.0, 0.5, 10.0).translation(Vector::Y * -0.6);
         world.insert(RigidBodyBuilder::fixed(), ground);
         let mut immersion = Immersion::new(Fluid::AIR);
-        immersion.set_flow(Shear {
+        let shear = Shear {
             origin: Vector::ZERO,
             velocity: Vector::X,
             across: Vector::Y,
             rate: Vector::Z,
+        };
+        let vortex = Vortex::new(Vector::ZERO, Vector::Y, 1.0, 0.5).unwrap();
+        let spacing = Vector::splat(0.3);
+        let periodic = [true, false, true];
+        let grid = GridFlow::sampled(&vortex, 0.0, [9; 3], periodic, -Vector::ONE, spacing);
+        immersion.set_flow(Layers::new().with(shear).with(grid.unwrap()));
+        immersion.set_turbulence(Turbulence::Decaying {
+            initial: TurbulenceState {
+                kinetic_energy: 0.2,
+                dissipation: 0.3,
+            },
         });
         let laws = [
             ViscousLaw::default(),

@@ -4,7 +4,7 @@ use super::flight::Integrated;
 use super::kind::Kind;
 use super::original::Original;
 use super::playback::Player;
-use super::stream::Stirred;
+use super::stir::Stirred;
 use crate::body::ImmersedBody;
 use crate::dynamics::Integrator;
 use crate::flow::Flow;
@@ -77,6 +77,9 @@ pub struct Immersion {
     /// Rebuilt from the slots after loading.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub(super) kinds: Vec<Kind>,
+    /// Whether one of the kinds drags much fluid along.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub(super) heavy_fluid: bool,
     /// Bodies that rapier may not list as active yet.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub(super) newcomers: Vec<RigidBodyHandle>,
@@ -223,6 +226,7 @@ impl Immersion {
             flow: None,
             turbulence: None,
             kinds: Vec::new(),
+            heavy_fluid: false,
             newcomers: Vec::new(),
             scratch: super::step::Scratch::default(),
         }
@@ -365,6 +369,7 @@ impl Immersion {
     pub fn set_fluid(&mut self, fluid: Fluid) {
         self.fluid = fluid;
         self.kinds.clear();
+        self.heavy_fluid = false;
         self.changed = true;
         for slot in self.slots.iter_mut().flatten() {
             slot.kind = NONE;
@@ -460,8 +465,9 @@ impl Immersion {
             return Ok(index as u32);
         }
         let body = &self.descriptions[description as usize];
-        self.kinds
-            .push(Kind::new(description, body, dry, &self.fluid)?);
+        let kind = Kind::new(description, body, dry, &self.fluid)?;
+        self.heavy_fluid |= kind.heavy_fluid;
+        self.kinds.push(kind);
         Ok(self.kinds.len() as u32 - 1)
     }
 }

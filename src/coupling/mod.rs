@@ -18,6 +18,7 @@ mod readout;
 #[cfg(feature = "serde-serialize")]
 mod snapshot;
 mod step;
+mod stir;
 mod stream;
 mod wing;
 

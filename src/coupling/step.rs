@@ -6,7 +6,9 @@ use super::handover::Pace;
 use super::immersion::{Immersion, NONE, Warning};
 use super::kind::Route;
 use super::original::Original;
-use super::stream::Sampler;
+use super::stir::Stirred;
+use super::stream::Stream;
+use crate::flow::FlowSample;
 use rapier3d::dynamics::{
     ImpulseJointSet, IntegrationParameters, IslandManager, LockedAxes, MultibodyJointSet,
     RigidBody, RigidBodyHandle, RigidBodySet,
@@ -63,7 +65,7 @@ pub(super) struct Scratch {
     crowded: bool,
     /// Bodies between `before_step` and `after_step`.
     borrowed: Vec<Borrowed>,
-    sampler: Sampler,
+    samples: Vec<FlowSample>,
 }
 
 /// Bodies of one route that are moved together.
@@ -71,6 +73,21 @@ pub(super) struct Scratch {
 pub(super) struct Batch {
     pub flyers: Vec<Flyer>,
     pub extras: Vec<Extra>,
+    /// Where the flyers are (centers of mass) and what flows past them; empty where nothing flows.
+    pub points: Vec<Vector>,
+    pub streams: Vec<Stream>,
+    /// What the flyers remember of the turbulence; empty where there is none.
+    pub stirred: Vec<Stirred>,
+}
+
+impl Batch {
+    fn clear(&mut self) {
+        self.flyers.clear();
+        self.extras.clear();
+        self.points.clear();
+        self.streams.clear();
+        self.stirred.clear();
+    }
 }
 
 /// Size of a batch: small enough for the bodies to be still in the cache when they are written, large
@@ -347,17 +364,23 @@ impl Immersion {
         }
     }
 
-    /// Marks the bodies of all pairs where pairs are few, so that the others need not be asked for
-    /// theirs one by one.
+    /// Marks the bodies that meet others where these are few, so that the rest need not be asked for
+    /// their pairs one by one.
     fn find_close(&self, sets: &RapierSets, scratch: &mut Scratch) {
-        let pairs = sets.narrow_phase.contact_graph().raw_graph().raw_edges();
-        scratch.crowded = pairs.len() > sets.islands.num_active_bodies() / 4;
-        if scratch.crowded {
-            return;
-        }
         scratch.close.clear();
         scratch.close.resize(self.slots.len(), false);
+        scratch.crowded = false;
+        // Pairs without a contact yet matter only to bodies that drag much fluid along.
+        let mut few = sets.islands.num_active_bodies() / 4;
         for pair in sets.narrow_phase.contact_pairs() {
+            if !self.heavy_fluid && !pair.has_any_active_contact() {
+                continue;
+            }
+            if few == 0 {
+                scratch.crowded = true;
+                return;
+            }
+            few -= 1;
             for collider in [pair.collider1, pair.collider2] {
                 let parent = sets.colliders.get(collider).and_then(|c| c.parent());
                 if let Some(slot) = parent.and_then(|body| self.slot_index(body)) {
@@ -448,10 +471,16 @@ impl Immersion {
                 angular: row(on_top.1),
                 force: row(force),
                 torque: row(torque),
-                ..Extra::default()
             });
             batch.extras.len() as u32 - 1
         };
+        if self.flow.is_some() || self.turbulence.is_some() {
+            batch.points.push(body.center_of_mass());
+            batch.streams.push(Stream::before(flight));
+        }
+        if self.turbulence.is_some() {
+            batch.stirred.push(flight.stirred);
+        }
         batch.flyers.push(Flyer {
             handle,
             slot: index as u32,
@@ -483,7 +512,7 @@ impl Immersion {
         clock: &Clock,
     ) {
         let batch = &mut scratch.batches[route.index()];
-        self.sample_fluid(batch, sets, &mut scratch.sampler, clock.dt);
+        self.sample_fluid(batch, &mut scratch.samples, clock.dt);
         let landings = &mut scratch.landings;
         landings.resize(batch.flyers.len(), Landing::default());
         let air = Air {
@@ -492,14 +521,21 @@ impl Immersion {
             extras: &batch.extras,
             clock,
         };
-        fly_all(&batch.flyers, landings, route, air);
-        for (flyer, landing) in batch.flyers.iter().zip(landings.iter()) {
+        fly_all(&batch.flyers, &batch.streams, landings, route, air);
+        for (i, (flyer, landing)) in batch.flyers.iter().zip(landings.iter()).enumerate() {
+            if let Some(slot) = &mut self.slots[flyer.slot as usize] {
+                if let Some(stream) = batch.streams.get(i) {
+                    slot.flight.stream = vector(stream.velocity);
+                }
+                if let Some(stirred) = batch.stirred.get(i) {
+                    slot.flight.stirred = *stirred;
+                }
+            }
             if let Some(borrowed) = self.hand_over(flyer, landing, sets) {
                 scratch.borrowed.push(borrowed);
             }
         }
-        batch.flyers.clear();
-        batch.extras.clear();
+        batch.clear();
     }
 
     /// Writes what the step shall do to one body, and keeps what must be given back.
@@ -565,7 +601,7 @@ impl Immersion {
     }
 }
 
-fn fly_all(flyers: &[Flyer], landings: &mut [Landing], route: Route, air: Air) {
+fn fly_all(flyers: &[Flyer], streams: &[Stream], landings: &mut [Landing], route: Route, air: Air) {
     #[cfg(feature = "parallel")]
     {
         use rapier3d::rayon::prelude::*;
@@ -575,11 +611,16 @@ fn fly_all(flyers: &[Flyer], landings: &mut [Landing], route: Route, air: Air) {
             flyers
                 .par_chunks(TASK)
                 .zip(landings.par_chunks_mut(TASK))
-                .for_each(|(task, landings)| fly(task, landings, route, air));
+                .enumerate()
+                .for_each(|(number, (task, landings))| {
+                    let from = number * TASK;
+                    let streams = streams.get(from..from + task.len()).unwrap_or_default();
+                    fly(task, streams, landings, route, air);
+                });
             return;
         }
     }
-    fly(flyers, landings, route, air);
+    fly(flyers, streams, landings, route, air);
 }
 
 /// Whether joints or locked axes keep a body from moving freely.

@@ -4,8 +4,9 @@ use super::flight::{Air, Extra, Flyer, Integrated, Landing};
 use super::handover::Target;
 use super::immersion::NONE;
 use super::kind::{Law, StepConstants};
+use super::stream::Stream;
 use crate::dynamics::integrate::{Load, Motion, advance, rotate, rotate_back, substeps};
-use crate::dynamics::kirchhoff::Twist;
+use crate::dynamics::kirchhoff::{Twist, choose};
 use crate::hydro::viscous::physical::PlatesOnly;
 use crate::hydro::viscous::scaled::Scaled;
 use crate::math::{Lanes, MOST_LANES, Row, Scalar};
@@ -23,7 +24,9 @@ pub(super) struct Wing<'a, S: Simd> {
     pub symmetric: bool,
     /// Whether the buoyancy of one has a torque.
     pub turned_by_buoyancy: bool,
-    /// Where they land.
+    /// What flows past the bodies of their window; `None` where nothing flows.
+    pub streams: Option<&'a [Stream]>,
+    /// Where they are in their window, and where they land.
     pub index: [usize; MOST_LANES],
     pub landings: &'a mut [Landing],
     pub air: Air<'a>,
@@ -84,9 +87,10 @@ impl<S: Simd> Wing<'_, S> {
             },
             last,
         };
-        let (numbers, _) = self.vectors(|f| {
+        let (numbers, goes_on) = self.vectors(|f| {
             let free = f32::from(u8::from(f.free));
-            [f.solver_mass, f.gravity_scale, free, 0.0]
+            let goes_on = f32::from(u8::from(f.goes_on));
+            [f.solver_mass, f.gravity_scale, free, goes_on]
         });
         let (solver_mass, gravity_scale, free) = (numbers.x, numbers.y, numbers.z);
         let g = clock.gravity;
@@ -100,19 +104,33 @@ impl<S: Simd> Wing<'_, S> {
             fluid_spin: nothing,
             turning: self.turned_by_buoyancy,
         };
-        let mut stream = nothing;
+        load.turning |= self.bodies.iter().any(|flyer| flyer.turned);
         if self.bodies.iter().any(|flyer| flyer.extra != NONE) {
-            stream = self.extra(|e| e.stream);
             load.force += self.extra(|e| e.force) * scale.per_mass;
             load.torque = self.extra(|e| e.torque) * scale.per_mass_length;
-            load.fluid_spin = self.extra(|e| e.vorticity) * (scale.length * lit(0.5));
-            load.turning |= self.bodies.iter().any(|flyer| flyer.turned);
             let on_top = rotate_back(&attitude, &self.extra(|e| e.linear));
             let spin = rotate_back(&attitude, &(self.extra(|e| e.angular) * scale.length));
-            let change = rotate_back(&attitude, &self.extra(|e| e.stream_change));
-            let pushed = scale.pushed_by(&change);
-            motion.velocity.linear += on_top + pushed.linear;
-            motion.velocity.angular += spin + pushed.angular;
+            motion.velocity.linear += on_top;
+            motion.velocity.angular += spin;
+        }
+        let mut stream = nothing;
+        if let Some(streams) = self.streams {
+            let flow = |row: fn(&Stream) -> Row| {
+                let [x, y, z, _] =
+                    Lanes::side_by_side(self.simd, |lane| row(&streams[self.index[lane]]));
+                Vector3::new(x, y, z)
+            };
+            stream = flow(|s| s.velocity);
+            let change = flow(|s| s.change);
+            if load.turning {
+                load.fluid_spin = flow(|s| s.vorticity) * (scale.length * lit(0.5));
+            }
+            // In the frame of the fluid: a body that goes on is there already, but the frame itself
+            // has changed its velocity.
+            let frame = choose(&change, lit(0.5), goes_on, &stream);
+            let pushed = scale.pushed_by(&rotate_back(&attitude, &change));
+            motion.velocity.linear += pushed.linear - rotate_back(&attitude, &frame);
+            motion.velocity.angular += pushed.angular;
         }
         let dt = lit(clock.dt);
         let count = substeps(inertia, &motion, &load, dt, &clock.integrator);

@@ -1,8 +1,10 @@
 //! A flow sampled on a grid, in memory or from a file.
 
-use super::{Flow, FlowSample, lattice::Lattice, lattice::MAX_NODES};
+use super::{Flow, FlowSample, cells::Cells, lattice::Lattice, lattice::MAX_NODES};
 use crate::Error;
 use crate::file::{FileKind, Reader, Writer};
+use crate::math::{Lanes, OnLanes, Row, dispatch};
+use fearless_simd::{Simd, SimdBase};
 use rapier3d::glamx::Vec4;
 use rapier3d::math::Vector;
 
@@ -13,7 +15,7 @@ use rapier3d::math::Vector;
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridFlow {
     lattice: Lattice,
-    nodes: Vec<Vec4>,
+    nodes: Vec<Row>,
     /// Velocity with which the whole pattern is carried along, m/s (Taylor's frozen field). The
     /// node velocities are not changed by it: add the mean wind to them yourself.
     pub drift: Vector,
@@ -50,7 +52,7 @@ impl GridFlow {
         for x in velocities.iter().flat_map(|velocity| velocity.to_array()) {
             Error::check_finite("velocity", x.into())?;
         }
-        let nodes = lattice.pad(|node| velocities[node].extend(0.0));
+        let nodes = lattice.pad(|node| velocities[node].extend(0.0).to_array());
         Ok(Self {
             lattice,
             nodes,
@@ -89,7 +91,9 @@ impl GridFlow {
 
     /// Velocities at the nodes, m/s, in the order of [`GridFlow::new`].
     pub fn velocities(&self) -> impl Iterator<Item = Vector> + '_ {
-        self.lattice.unpad(&self.nodes).map(|node| node.truncate())
+        self.lattice
+            .unpad(&self.nodes)
+            .map(|node| Vector::new(node[0], node[1], node[2]))
     }
 
     /// The file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
@@ -175,24 +179,50 @@ impl Flow for GridFlow {
             .lattice
             .locate((point - self.carried(time)).extend(0.0));
         self.lattice
-            .value(&cell, &self.nodes, |node| *node)
+            .value(&cell, &self.nodes, |node| Vec4::from_array(*node))
             .truncate()
     }
 
     fn vorticity(&self, point: Vector, time: f64) -> Vector {
-        let cell = self
-            .lattice
-            .locate((point - self.carried(time)).extend(0.0));
-        self.lattice.jet(&cell, &self.nodes, |node| *node).curl()
+        let mut sample = [FlowSample::default()];
+        self.sample(&[point], time, &mut sample);
+        sample[0].vorticity
     }
 
     fn sample(&self, points: &[Vector], time: f64, samples: &mut [FlowSample]) {
-        let carried = self.carried(time);
-        for (point, sample) in points.iter().zip(samples) {
-            let cell = self.lattice.locate((*point - carried).extend(0.0));
-            let jet = self.lattice.jet(&cell, &self.nodes, |node| *node);
-            sample.velocity = jet.value.truncate();
-            sample.vorticity = jet.curl();
+        dispatch(Batch {
+            flow: self,
+            carried: self.carried(time),
+            points,
+            samples,
+        });
+    }
+}
+
+/// A batch of look-ups.
+struct Batch<'a> {
+    flow: &'a GridFlow,
+    carried: Vector,
+    points: &'a [Vector],
+    samples: &'a mut [FlowSample],
+}
+
+impl OnLanes for Batch<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let cells = Cells::new(simd, &self.flow.lattice);
+        let carried = [self.carried.x, self.carried.y, self.carried.z];
+        let [a, b, c] = carried.map(|way| Lanes::splat(simd, way));
+        let groups = self.points.chunks(Lanes::<S>::COUNT);
+        for (points, samples) in groups.zip(self.samples.chunks_mut(Lanes::<S>::COUNT)) {
+            let [x, y, z, _] = Lanes::points(simd, points);
+            let found = cells.locate([x - a, y - b, z - c]);
+            for (lane, sample) in samples.iter_mut().enumerate() {
+                let jet = cells.jet(&found, lane, &self.flow.nodes);
+                let value = jet.value.as_slice();
+                sample.velocity = Vector::new(value[0], value[1], value[2]);
+                sample.vorticity = jet.curl();
+            }
         }
     }
 }

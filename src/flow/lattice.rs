@@ -23,16 +23,16 @@ pub(crate) struct Lattice {
 
 /// The same as four-lane constants, so that the three axes are bracketed at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Lanes {
-    origin: Vec4,
-    per_spacing: Vec4,
-    nodes: Vec4,
-    per_node: Vec4,
+pub(super) struct Lanes {
+    pub origin: Vec4,
+    pub per_spacing: Vec4,
+    pub nodes: Vec4,
+    pub per_node: Vec4,
     /// 1 along periodic axes, 0 along the others: the mask's own type differs between glam's builds.
-    periodic: Vec4,
+    pub periodic: Vec4,
     /// Largest position and largest node below a cell.
-    end: Vec4,
-    last: Vec4,
+    pub end: Vec4,
+    pub last: Vec4,
 }
 
 /// The cell around a point: the first nodes of its four rows and the position inside.
@@ -42,18 +42,23 @@ pub(crate) struct Cell {
     flat: bool,
 }
 
-/// A value and its derivatives along the axes.
-pub(crate) struct Jet {
-    pub value: Vec4,
-    pub dx: Vec4,
-    pub dy: Vec4,
-    pub dz: Vec4,
-}
-
 /// `x` modulo `period`, several times faster than `rem_euclid` (which divides bit by bit).
 #[inline(always)]
 pub(crate) fn wrap(x: f64, period: f64) -> f64 {
     x - (x / period).floor() * period
+}
+
+/// From here on f32 has no fractions of a period left that matter.
+pub(super) const FAR: Real = 4_194_304.0;
+
+/// The largest whole number that is not larger than x, |x| ≤ [`FAR`]: so large a sum as `shift` has no
+/// room for a fraction. Where SSE 4.1 cannot be taken for granted, several times cheaper than the
+/// library's.
+#[inline(always)]
+fn floor(x: Vec4) -> Vec4 {
+    let shift = Vec4::splat(12_582_912.0);
+    let near = (x + shift) - shift;
+    Vec4::select(x.cmplt(near), near - Vec4::ONE, near)
 }
 
 #[inline(always)]
@@ -83,6 +88,13 @@ impl Lattice {
         }
         let wraps: [bool; 3] = core::array::from_fn(|i| periodic[i] || dims[i] == 1);
         let stored: [usize; 3] = core::array::from_fn(|i| dims[i] + usize::from(wraps[i]));
+        let all = stored.iter().map(|n| *n as f64).product::<f64>();
+        Error::check(
+            "nodes in all",
+            all,
+            all < f64::from(i32::MAX),
+            "less than 2³¹",
+        )?;
         let lanes = |value: &dyn Fn(usize) -> usize| {
             Vec4::new(value(0) as Real, value(1) as Real, value(2) as Real, 1.0)
         };
@@ -105,6 +117,16 @@ impl Lattice {
                 last: lanes(&|i| stored[i] - 2),
             },
         })
+    }
+
+    pub(super) fn lanes(&self) -> &Lanes {
+        &self.lanes
+    }
+
+    /// How far apart stored nodes are that are neighbors along y and z.
+    pub(super) fn strides(&self) -> [u32; 2] {
+        let [x, y, _] = self.stored;
+        [x as u32, (x * y) as u32]
     }
 
     pub fn len(&self) -> usize {
@@ -138,11 +160,11 @@ impl Lattice {
     pub fn locate(&self, point: Vec4) -> Cell {
         let lanes = &self.lanes;
         let x = (point - lanes.origin) * lanes.per_spacing;
-        let turns = x * lanes.per_node;
-        let wrapped = (turns - turns.floor()) * lanes.nodes;
+        let turns = (x * lanes.per_node).clamp(Vec4::splat(-FAR), Vec4::splat(FAR));
+        let wrapped = (turns - floor(turns)) * lanes.nodes;
         let x =
             Vec4::select(lanes.periodic.cmpgt(Vec4::ZERO), wrapped, x).clamp(Vec4::ZERO, lanes.end);
-        let below = x.floor().min(lanes.last);
+        let below = floor(x).min(lanes.last);
         let weight = (x - below).max(Vec4::ZERO);
         let [i, j, k, _] = below.to_array().map(|x| x as i32 as usize);
         let [sx, sy, _] = self.stored;
@@ -170,49 +192,5 @@ impl Lattice {
         } else {
             lerp(low, lerp(line(c), line(d), w.y), w.z)
         }
-    }
-
-    /// Value and gradient inside `cell`; beyond a clamped edge the gradient is the edge cell's.
-    #[inline(always)]
-    pub fn jet<T>(&self, cell: &Cell, nodes: &[T], at: impl Fn(&T) -> Vec4) -> Jet {
-        let w = cell.weight;
-        let line = |row: usize| {
-            let pair = &nodes[row..row + 2];
-            let (a, b) = (at(&pair[0]), at(&pair[1]));
-            (lerp(a, b, w.x), b - a)
-        };
-        let plane = |near: usize, far: usize| {
-            let ((near, near_dx), (far, far_dx)) = (line(near), line(far));
-            (lerp(near, far, w.y), lerp(near_dx, far_dx, w.y), far - near)
-        };
-        let scale = self.lanes.per_spacing;
-        let (low, low_dx, low_dy) = plane(cell.rows[0], cell.rows[1]);
-        if cell.flat {
-            return Jet {
-                value: low,
-                dx: low_dx * scale.x,
-                dy: low_dy * scale.y,
-                dz: Vec4::ZERO,
-            };
-        }
-        let (high, high_dx, high_dy) = plane(cell.rows[2], cell.rows[3]);
-        Jet {
-            value: lerp(low, high, w.z),
-            dx: lerp(low_dx, high_dx, w.z) * scale.x,
-            dy: lerp(low_dy, high_dy, w.z) * scale.y,
-            dz: (high - low) * scale.z,
-        }
-    }
-}
-
-impl Jet {
-    /// Curl of the first three components.
-    #[inline(always)]
-    pub fn curl(&self) -> Vector {
-        Vector::new(
-            self.dy.z - self.dz.y,
-            self.dz.x - self.dx.z,
-            self.dx.y - self.dy.x,
-        )
     }
 }

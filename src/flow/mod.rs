@@ -1,6 +1,7 @@
 //! The motion of the fluid itself: what the bodies are immersed *in*.
 
 mod analytic;
+mod cells;
 mod grid;
 mod lattice;
 mod layers;

@@ -1,12 +1,14 @@
 //! Gusty wind over ground: a log-law mean and a baked turbulent field carried along by it.
 
+use super::cells::{Cells, Pair};
 use super::lattice::{Lattice, MAX_NODES, wrap};
 use super::{Flow, FlowSample, LogLaw};
 use crate::Error;
 use crate::file::{FileKind, Reader, Writer};
+use crate::math::{Lanes, MOST_LANES, OnLanes, Row, Scalar, dispatch};
+use fearless_simd::{Simd, SimdBase};
 use rapier3d::glamx::Vec4;
 use rapier3d::math::{Real, Vector};
-use rapier3d::na::ComplexField;
 
 /// How the gusts change with height.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,7 +44,7 @@ pub struct SpectralWind {
     pub(super) height_law: HeightLaw,
     pub(super) lattice: Lattice,
     /// Fluctuation along the wind, across it and up, m/s, of both fields at each node.
-    pub(super) nodes: Vec<[Vec4; 2]>,
+    pub(super) nodes: Vec<Pair>,
     /// 1/ln(h₀/z₀), 1/z₀, and the largest strength of the gusts.
     per_log: Real,
     per_roughness: Real,
@@ -62,12 +64,11 @@ struct Instant {
 }
 
 /// The wind's dependence on height.
-#[derive(Default)]
-struct Profile {
-    speed: Real,
-    shear: Real,
-    strength: Real,
-    growth: Real,
+struct Profile<T> {
+    speed: T,
+    shear: T,
+    strength: T,
+    growth: T,
 }
 
 impl SpectralWind {
@@ -83,7 +84,7 @@ impl SpectralWind {
         evolution_time: f64,
         height_law: HeightLaw,
         lattice: Lattice,
-        nodes: &[[Vec4; 2]],
+        nodes: &[Pair],
     ) -> Result<Self, Error> {
         let mean = LogLaw::new(
             direction,
@@ -138,7 +139,7 @@ impl SpectralWind {
     pub fn fluctuations(&self) -> impl Iterator<Item = Vector> + '_ {
         self.lattice
             .unpad(&self.nodes)
-            .map(|node| node[0].truncate())
+            .map(|Pair([node, _])| Vector::new(node[0], node[1], node[2]))
     }
 
     fn instant(&self, time: f64) -> Instant {
@@ -160,17 +161,21 @@ impl SpectralWind {
     /// Mean speed, strength of the gusts relative to the reference height, and growth per meter of
     /// both, at `height`.
     #[inline(always)]
-    fn profile(&self, height: Real) -> Profile {
-        if height <= self.roughness {
-            return Profile::default();
-        }
-        let raw = ComplexField::ln(height * self.per_roughness) * self.per_log;
-        let (growth, speed) = (self.per_log / height, self.mean_speed as Real);
+    fn profile<T: Scalar>(&self, height: T) -> Profile<T> {
+        let lit = |value: Real| height.lit(value.into());
+        let (zero, one, lowest) = (lit(0.0), lit(1.0), lit(self.roughness));
+        // What is not above the lowest height, NaN too, counts as it; infinity as very high.
+        let above = height.where_less(lowest, height, lowest);
+        let above = above.smaller(lit(Real::MAX));
+        let over = (above * lit(self.per_roughness)).smaller(lit(Real::MAX));
+        let raw = over.logarithm().larger(zero) * lit(self.per_log);
+        let growth = (lit(self.per_log) / above).where_less(lowest, height, zero);
+        let (cap, speed) = (lit(self.cap), lit(self.mean_speed as Real));
         Profile {
             speed: speed * raw,
             shear: speed * growth,
-            strength: raw.min(self.cap),
-            growth: growth * Real::from(u8::from(raw < self.cap)),
+            strength: raw.smaller(cap),
+            growth: growth * one.where_less(raw, cap, zero),
         }
     }
 
@@ -194,29 +199,9 @@ impl SpectralWind {
         let [a, b] = instant.mix;
         let gust = self
             .lattice
-            .value(&cell, &self.nodes, |node| node[0] * a + node[1] * b);
+            .value(&cell, &self.nodes, |node| mixed(node, [a, b]));
         let profile = self.profile(x.z);
         self.to_world(gust * profile.strength + Vec4::X * profile.speed)
-    }
-
-    #[inline(always)]
-    fn sample_at(&self, point: Vector, instant: &Instant) -> FlowSample {
-        let x = self.to_field(point, instant);
-        let cell = self.lattice.locate(x);
-        let [a, b] = instant.mix;
-        let jet = self
-            .lattice
-            .jet(&cell, &self.nodes, |node| node[0] * a + node[1] * b);
-        let gust = jet.value;
-        let profile = self.profile(x.z);
-        // curl(strength·gust + U e₁), with ẑ × e₁ = e₂.
-        let curl = jet.curl().extend(0.0) * profile.strength
-            + Vec4::new(-gust.y, gust.x, 0.0, 0.0) * profile.growth
-            + Vec4::new(0.0, profile.shear, 0.0, 0.0);
-        FlowSample {
-            velocity: self.to_world(gust * profile.strength + Vec4::X * profile.speed),
-            vorticity: self.to_world(curl),
-        }
     }
 
     /// The file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
@@ -241,8 +226,8 @@ impl SpectralWind {
         let evolves = self.evolution_time.is_finite();
         file.f64(if evolves { self.evolution_time } else { 0.0 });
         for node in self.lattice.unpad(&self.nodes) {
-            for x in node.iter().flat_map(|field| field.truncate().to_array()) {
-                file.f32(x);
+            for x in node.0.iter().flat_map(|field| &field[..3]) {
+                file.f32(*x);
             }
         }
         file.finish(&FILE)
@@ -273,10 +258,10 @@ impl SpectralWind {
         let lattice = Lattice::new(dims, [true; 3], Vector::ZERO, spacing)?;
         let mut nodes = Vec::with_capacity(count as usize);
         for _ in 0..count {
-            let mut node = [Vec4::ZERO; 2];
-            for field in &mut node {
-                for component in 0..3 {
-                    field[component] = file.f32("fluctuation")?;
+            let mut node = Pair::default();
+            for field in &mut node.0 {
+                for component in &mut field[..3] {
+                    *component = file.f32("fluctuation")?;
                 }
             }
             nodes.push(node);
@@ -306,13 +291,107 @@ impl Flow for SpectralWind {
     }
 
     fn vorticity(&self, point: Vector, time: f64) -> Vector {
-        self.sample_at(point, &self.instant(time)).vorticity
+        let mut sample = [FlowSample::default()];
+        self.sample(&[point], time, &mut sample);
+        sample[0].vorticity
     }
 
     fn sample(&self, points: &[Vector], time: f64, samples: &mut [FlowSample]) {
-        let instant = self.instant(time);
-        for (point, sample) in points.iter().zip(samples) {
-            *sample = self.sample_at(*point, &instant);
+        dispatch(Batch {
+            wind: self,
+            instant: self.instant(time),
+            points,
+            samples,
+        });
+    }
+}
+
+/// A batch of look-ups.
+struct Batch<'a> {
+    wind: &'a SpectralWind,
+    instant: Instant,
+    points: &'a [Vector],
+    samples: &'a mut [FlowSample],
+}
+
+impl OnLanes for Batch<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self {
+            wind,
+            instant,
+            points,
+            samples,
+        } = self;
+        let cells = Cells::new(simd, &wind.lattice);
+        let [along, across, up] = wind.axes.map(|axis| {
+            let [x, y, z] = axis.to_array();
+            [
+                Lanes::splat(simd, x),
+                Lanes::splat(simd, y),
+                Lanes::splat(simd, z),
+            ]
+        });
+        let carried = Lanes::splat(simd, instant.carried.x);
+        let ground = Lanes::splat(simd, wind.ground);
+        let groups = points.chunks(Lanes::<S>::COUNT);
+        for (points, samples) in groups.zip(samples.chunks_mut(Lanes::<S>::COUNT)) {
+            let [x, y, z, zero] = Lanes::points(simd, points);
+            let point = [x, y, z];
+            let height = dot(&point, &up) - ground;
+            let found = cells.locate([dot(&point, &along) - carried, dot(&point, &across), height]);
+            let mut gusts = [Row::default(); MOST_LANES];
+            let mut curls = [Row::default(); MOST_LANES];
+            for lane in 0..points.len() {
+                let both = cells.jet(&found, lane, &wind.nodes);
+                let jet = both.mixed(simd, instant.mix);
+                gusts[lane].copy_from_slice(jet.value.as_slice());
+                let [x, y, z] = jet.curl().to_array();
+                curls[lane] = [x, y, z, 0.0];
+            }
+            let [u, v, w, _] = Lanes::side_by_side(simd, |lane| gusts[lane]);
+            let [p, q, r, _] = Lanes::side_by_side(simd, |lane| curls[lane]);
+            let profile = wind.profile(height);
+            let strength = profile.strength;
+            let velocity = [u * strength + profile.speed, v * strength, w * strength];
+            // curl(strength·gust + U e₁), with ẑ × e₁ = e₂.
+            let vorticity = [
+                p * strength - v * profile.growth,
+                q * strength + u * profile.growth + profile.shear,
+                r * strength,
+            ];
+            let [x, y, z] = in_world(&velocity, &along, &across, &up);
+            let [p, q, r] = in_world(&vorticity, &along, &across, &up);
+            Lanes::apart([x, y, z, zero], |lane, [x, y, z, _]| {
+                if let Some(sample) = samples.get_mut(lane) {
+                    sample.velocity = Vector::new(x, y, z);
+                }
+            });
+            Lanes::apart([p, q, r, zero], |lane, [x, y, z, _]| {
+                if let Some(sample) = samples.get_mut(lane) {
+                    sample.vorticity = Vector::new(x, y, z);
+                }
+            });
         }
     }
+}
+
+#[inline(always)]
+fn mixed(Pair([first, second]): &Pair, [a, b]: [Real; 2]) -> Vec4 {
+    Vec4::from_array(*first) * a + Vec4::from_array(*second) * b
+}
+
+#[inline(always)]
+fn dot<T: Scalar>(a: &[T; 3], b: &[T; 3]) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// A vector of the field's axes in those of the world.
+#[inline(always)]
+fn in_world<T: Scalar>(v: &[T; 3], along: &[T; 3], across: &[T; 3], up: &[T; 3]) -> [T; 3] {
+    [
+        along[0] * v[0] + across[0] * v[1] + up[0] * v[2],
+        along[1] * v[0] + across[1] * v[1] + up[1] * v[2],
+        along[2] * v[0] + across[2] * v[1] + up[2] * v[2],
+    ]
 }

@@ -5,12 +5,12 @@
 //! itself runs in f32, the precision of the stored field, at half the time of f64.
 
 use super::SpectralWind;
+use super::cells::Pair;
 use super::wind_params::{Component, Spectrum, WindParams, check, components};
 use crate::Error;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
-use rapier3d::glamx::Vec4;
 use rapier3d::math::Real;
 use rayon::prelude::*;
 use rustfft::{FftPlanner, num_complex::Complex32};
@@ -288,12 +288,12 @@ impl Modes {
     }
 
     /// Interleaves the fields.
-    fn assemble(&self, params: &WindParams, mut fields: Vec<Vec<Complex32>>) -> Vec<[Vec4; 2]> {
+    fn assemble(&self, params: &WindParams, mut fields: Vec<Vec<Complex32>>) -> Vec<Pair> {
         let [nx, ny, nz] = self.dims;
         if let Spectrum::Given { .. } = params.spectrum {
             self.rescale(params, &mut fields);
         }
-        let mut nodes = vec![[Vec4::ZERO; 2]; nx * ny * nz];
+        let mut nodes = vec![Pair::default(); nx * ny * nz];
         nodes
             .par_chunks_mut(nx)
             .enumerate()
@@ -302,8 +302,7 @@ impl Modes {
                 let from = (y * nz + z) * nx;
                 for (x, node) in nodes.iter_mut().enumerate() {
                     let [u, v, w] = [0, 1, 2].map(|i: usize| fields[i][from + x]);
-                    node[0] = Vec4::new(u.re, v.re, w.re, 0.0);
-                    node[1] = Vec4::new(u.im, v.im, w.im, 0.0);
+                    *node = Pair([[u.re, v.re, w.re, 0.0], [u.im, v.im, w.im, 0.0]]);
                 }
             });
         nodes

@@ -2,6 +2,7 @@
 
 use super::scalar::{Binary32, MANTISSA, ONE, ROOT_HALF, Scalar, WHOLE, exponential, logarithm};
 use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdMask, f32x4};
+use rapier3d::math::Vector;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// No machine has more lanes than this.
@@ -106,6 +107,30 @@ impl<S: Simd> Lanes<S> {
         self.0.as_slice().iter().copied().fold(least, f32::max)
     }
 
+    /// The lanes' numbers; of those beyond [`COUNT`](Self::COUNT), zero.
+    #[inline(always)]
+    pub fn numbers(self) -> [f32; MOST_LANES] {
+        let mut numbers = [0.0; MOST_LANES];
+        numbers[..Self::COUNT].copy_from_slice(self.0.as_slice());
+        numbers
+    }
+
+    /// i + row·j + plane·k of whole numbers ≥ 0, which must be less than 2³¹; zero beyond
+    /// [`COUNT`](Self::COUNT).
+    #[inline(always)]
+    pub fn index(simd: S, [i, j, k]: [Self; 3], [row, plane]: [u32; 2]) -> [u32; MOST_LANES] {
+        let row = S::i32s::splat(simd, row as i32);
+        let plane = S::i32s::splat(simd, plane as i32);
+        let sum = i.0.to_int::<S::i32s>()
+            + j.0.to_int::<S::i32s>() * row
+            + k.0.to_int::<S::i32s>() * plane;
+        let mut index = [0; MOST_LANES];
+        for (index, sum) in index.iter_mut().zip(sum.as_slice()) {
+            *index = *sum as u32;
+        }
+        index
+    }
+
     /// Rows side by side: their first numbers, their second ones …
     #[inline(always)]
     pub fn side_by_side(simd: S, row: impl Fn(usize) -> Row) -> [Self; 4] {
@@ -123,6 +148,15 @@ impl<S: Simd> Lanes<S> {
             ))
         };
         [both(x, i), both(y, j), both(z, k), both(w, l)]
+    }
+
+    /// Vectors side by side, of which there may be fewer than lanes but not none: the last is repeated.
+    #[inline(always)]
+    pub fn points(simd: S, points: &[Vector]) -> [Self; 4] {
+        Self::side_by_side(simd, |lane| {
+            let [x, y, z] = points[lane.min(points.len() - 1)].to_array();
+            [x, y, z, 0.0]
+        })
     }
 
     /// Gives each lane's number and row to `store`: [`side_by_side`](Self::side_by_side) undone.
@@ -309,6 +343,13 @@ mod tests {
                     a.abs().max(f32::MIN_POSITIVE).logarithm()
                 });
                 let least = (0..Lanes::<S>::COUNT).fold(f32::MAX, |least, i| least.min(a[i]));
+                let whole = x.absolute().smaller(x.lit(600.0)).ceiling();
+                let index = Lanes::index(simd, [whole, whole, whole], [10, 100]);
+                for (lane, number) in whole.numbers().iter().enumerate() {
+                    assert_eq!(index[lane], 111 * *number as u32);
+                    let wanted = a[lane].abs().min(600.0).ceil();
+                    assert!(lane >= Lanes::<S>::COUNT || *number == wanted);
+                }
                 assert!(x.all_from(least.into()));
                 assert!(!x.all_from(f64::from(least.next_up())));
                 let most = (0..Lanes::<S>::COUNT).fold(1.0, |most, i| a[i].max(most));

@@ -5,6 +5,7 @@
 //! drag and added mass let it, so heavy bodies filter the turbulence and light ones follow.
 
 use super::TurbulenceState;
+use crate::math::Scalar;
 use rapier3d::math::{Real, Vector};
 
 /// C₀ of the Langevin equation, 6.5 (1 + 140 Re_λ^(−4/3))^(−3/4), of the *square* of the Taylor-scale
@@ -32,32 +33,39 @@ fn cube_root(x: Real) -> Real {
     (2.0 * guess + x / (guess * guess)) / 3.0
 }
 
+/// Eight terms of 1 − e^(−x), accurate to 1e-8 from 0 to .35.
+#[inline(always)]
+fn lost<T: Scalar>(x: T) -> T {
+    let one = x.lit(1.0);
+    let mut sum = one;
+    for n in (2..9).rev() {
+        sum = one - x * x.lit(1.0 / f64::from(n)) * sum;
+    }
+    x * sum
+}
+
 /// e^(−x) and 1 − e^(−2x) for x ≥ 0. The second without cancellation, as m(2 − m) of m = 1 − e^(−x), so that
 /// even a step of a millionth of the memory adds the right spread in f32. Basic operations only: cheap, and the
-/// same bits on every platform.
-#[inline]
-fn memory(x: Real) -> (Real, Real) {
-    // Eight terms of 1 − e^(−x), accurate to 1e-8 below .35.
-    let lost = |x: Real| {
-        let inner = 1.0 - x * (1.0 / 6.0) * (1.0 - x * (1.0 / 7.0) * (1.0 - x * (1.0 / 8.0)));
-        let inner = 1.0 - x * (1.0 / 4.0) * (1.0 - x * (1.0 / 5.0) * inner);
-        x * (1.0 - x * (1.0 / 2.0) * (1.0 - x * (1.0 / 3.0) * inner))
-    };
-    // Usual steps are short: half the terms, to 5e-8.
-    if x < 0.05 {
-        let lost = x * (1.0 - x * (1.0 / 2.0) * (1.0 - x * (1.0 / 3.0) * (1.0 - x * (1.0 / 4.0))));
-        return (1.0 - lost, lost * (2.0 - lost));
-    }
-    if x < 0.35 {
-        let lost = lost(x);
-        return (1.0 - lost, lost * (2.0 - lost));
+/// same bits on every platform and in every lane.
+#[inline(always)]
+fn memory<T: Scalar>(x: T) -> (T, T) {
+    let one = x.lit(1.0);
+    let short = x.lit(0.35);
+    let few = lost(x.smaller(short));
+    let (kept, fresh2) = (one - few, few * (one + (one - few)));
+    // Usual steps are short.
+    if (-x).all_from(-0.35) {
+        return (kept, fresh2);
     }
     // The 64th part, six times squared; beyond 22 nothing is kept.
-    let mut kept = 1.0 - lost(x.min(22.0) * (1.0 / 64.0));
+    let mut long = one - lost(x.smaller(x.lit(22.0)) * x.lit(1.0 / 64.0));
     for _ in 0..6 {
-        kept *= kept;
+        long *= long;
     }
-    (kept, 1.0 - kept * kept)
+    (
+        kept.where_less(x, short, long),
+        fresh2.where_less(x, short, one - long * long),
+    )
 }
 
 /// The velocity fluctuation of the fluid around one body, as an Ornstein–Uhlenbeck process.
@@ -102,34 +110,47 @@ impl SeenFluctuation {
         noise: Vector,
     ) -> Vector {
         let eddies = Eddies::new(state, c0, dt);
-        self.pass(&eddies, relative_speed * relative_speed, noise)
-    }
-
-    /// One step through `eddies` at a squared slip (m²/s²), as [`SeenFluctuation::advance`].
-    #[inline]
-    pub(crate) fn pass(&mut self, eddies: &Eddies, slip2: Real, noise: Vector) -> Vector {
-        if eddies.deviation == 0.0 {
-            return Vector::ZERO;
-        }
-        let crossing = (1.0 + slip2 * eddies.per_variance).sqrt();
-        let (kept, fresh2) = memory(eddies.decay * crossing);
-        self.normalized = self.normalized * kept + noise * fresh2.sqrt();
-        self.normalized * eddies.deviation
+        let mut seen = self.normalized.to_array();
+        let slip2 = relative_speed * relative_speed;
+        let fluctuation = pass(&mut seen, &eddies, slip2, noise.to_array());
+        self.normalized = Vector::from_array(seen);
+        Vector::from_array(fluctuation)
     }
 }
 
-/// What a step needs to know of the turbulence: the same for all bodies where that is homogeneous.
+/// One step of a normalized fluctuation `seen` through `eddies` at a squared slip (m²/s²); returns the
+/// fluctuation at its end, m/s, as [`SeenFluctuation::advance`].
+#[inline(always)]
+pub(crate) fn pass<T: Scalar>(
+    seen: &mut [T; 3],
+    eddies: &Eddies<T>,
+    slip2: T,
+    noise: [T; 3],
+) -> [T; 3] {
+    let crossing = (slip2.lit(1.0) + slip2 * eddies.per_variance).root();
+    let (kept, fresh2) = memory(eddies.decay * crossing);
+    let fresh = fresh2.root();
+    for axis in 0..3 {
+        seen[axis] = seen[axis] * kept + noise[axis] * fresh;
+    }
+    let [x, y, z] = *seen;
+    let deviation = eddies.deviation;
+    [x * deviation, y * deviation, z * deviation]
+}
+
+/// What a step needs to know of the turbulence: the same for all bodies where that is homogeneous. All
+/// zero where there is none.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Eddies {
+pub(crate) struct Eddies<T> {
     /// dt over the memory of a tracer.
-    pub decay: Real,
-    /// Standard deviation of a component, m/s; 0 where there is no turbulence.
-    deviation: Real,
+    pub decay: T,
+    /// Standard deviation of a component, m/s.
+    pub deviation: T,
     /// Its squared inverse, s²/m².
-    per_variance: Real,
+    pub per_variance: T,
 }
 
-impl Eddies {
+impl Eddies<Real> {
     pub fn new(state: &TurbulenceState, c0: Real, dt: Real) -> Self {
         let k = state.kinetic_energy;
         if k.is_nan() || k <= 0.0 {
