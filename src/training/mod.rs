@@ -54,6 +54,7 @@
 
 pub mod cluster;
 pub mod energy;
+pub mod fidelity;
 pub mod experiment;
 #[cfg(feature = "serde-serialize")]
 mod file;
