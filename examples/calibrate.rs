@@ -122,7 +122,10 @@ impl CostFunction<f64, NalgebraProvider> for Objective {
 fn main() {
     let arguments: Arguments = cli::parse();
     let all = Fidelity::new().expect("the measurements that ship");
-    let start = arguments.from.as_deref().map_or_else(PhysicalLaw::default, load);
+    let start = arguments
+        .from
+        .as_deref()
+        .map_or_else(PhysicalLaw::default, load);
     let law = if arguments.generations == 0 {
         start
     } else {
@@ -218,7 +221,10 @@ fn open_log(path: &Path) -> (File, HashMap<Vec<u64>, f64>) {
     // Rewritten whole, so that a line that was cut off does not spoil the next.
     cli::write(path, &text);
     let log = OpenOptions::new().append(true).open(path);
-    (log.unwrap_or_else(|error| cli::cannot_write(path, error)), costs)
+    (
+        log.unwrap_or_else(|error| cli::cannot_write(path, error)),
+        costs,
+    )
 }
 
 fn print(title: &str, report: &Report) {

@@ -54,8 +54,8 @@
 
 pub mod cluster;
 pub mod energy;
-pub mod fidelity;
 pub mod experiment;
+pub mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod file;
 pub mod grid;

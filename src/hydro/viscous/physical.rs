@@ -12,13 +12,19 @@ use std::f64::consts::PI;
 /// in water, paper in air, discs of any Reynolds number.
 ///
 /// With n the plate normal, `c` the chord along the motion, `A` the planform area, `AR` the aspect
-/// ratio span²/A, `Re = |u|c/ν`, and the velocity relative to the fluid **v** taken at the center
-/// of pressure `p = χ c u_t/|u|`, at the angle of attack `sin α = |v·n|/|v|`:
+/// ratio span²/A, `Re = |u|c/ν`, and the angle of attack `s = sin α = |u·n|/|u|`, the flow is
+/// attached to the share `f = 1/(1 + exp(2(s − s₀)/δ))`, and separated otherwise. All forces use the
+/// velocity relative to the fluid **v** at the center of pressure `p = χ f c u_t/|u|`:
 ///
-/// * drag `−½ρA|v| (C_D0 + (C_D90 − C_D0) sin²α) v` with skin friction and edges in `C_D0` and the
-///   broadside value `C_D90` from the measured disc curve; both pass to Stokes as Re → 0;
-/// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, from attached flow at small α to stalled flow,
-///   reduced by the aspect ratio, and absent below the onset of the wake (Re ≈ 95);
+/// * drag `−½ρA|v| (C_D0 + C_N sin²α + C_Di) v`: skin friction and edges in `C_D0`; in `C_N` the
+///   broadside value C_D90 − C_D0 from the measured disc curve, which passes to Stokes as Re → 0, and
+///   where the flow is attached the suction that a sharp leading edge loses, `2 k_s C_attached`
+///   (at `k_s` = 1 the force is normal to the plate);
+/// * induced drag `C_Di = k_i C_L²/(π AR)` with the lift coefficient C_L of both lifts together, as
+///   of a finite wing (Prandtl 1918): it is what makes a tumbling disc drift so much less than a
+///   tumbling strip;
+/// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, `C_T` from attached (f) to separated flow, each
+///   reduced by its aspect ratio, absent below the onset of the wake (Re ≈ 100);
 /// * rotational lift `ρAc C_R (1 − ε sin²α) ω_t × v`;
 /// * damping of the rotation by the pressure on the two halves of the plate and by friction;
 /// * the Munk moment of the added mass weakened to `munk`, because separated flow does not recover
@@ -28,7 +34,9 @@ use std::f64::consts::PI;
 /// the torque is that of the same force at the same point.
 ///
 /// The numbers come from a global search against falling plates in water (Andersen, Pesavento &
-/// Wang 2005), the regime map of discs (Field et al. 1997) and falling paper (Howison et al. 2020).
+/// Wang 2005), the regime map of discs (Field et al. 1997) and falling paper (Howison et al. 2020):
+/// [`training::fidelity`](crate::training::fidelity), example `calibrate`. What they reach is in
+/// the table of the example `validation`.
 ///
 /// Bodies that are not plates blend, by thickness, into the drag curve of a sphere (Clift &
 /// Gauvin 1971) on their actual shadow, with a Magnus force instead of the plate's lifts.
@@ -38,7 +46,7 @@ use std::f64::consts::PI;
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct PhysicalLaw {
-    /// χ: travel of the center of pressure toward the leading edge, in chords.
+    /// χ: travel of the center of pressure toward the leading edge in attached flow, in chords.
     pub pressure_travel: f64,
     /// C_attached: lift slope of attached flow, before the aspect ratio's `AR/(AR + λ₁)`.
     pub attached_lift: f64,
@@ -379,8 +387,7 @@ impl<T: Scalar> PhysicalConstants<T> {
         let slope = self.attached_lift * aspect / (aspect + self.attached_aspect);
         let stalled = self.stalled_lift * aspect / (aspect + self.stalled_aspect);
         let density_area = self.dynamic_area + self.dynamic_area;
-        let translational =
-            density_area * wake * sine * (stalled + attached * (slope - stalled));
+        let translational = density_area * wake * sine * (stalled + attached * (slope - stalled));
         let rotational = density_area * chord * self.rotational_lift * wake * aspect
             / (aspect + self.rotational_aspect)
             * (one - self.rotational_stall * sine2);
@@ -408,8 +415,8 @@ impl<T: Scalar> PhysicalConstants<T> {
         let (wx, wy) = (by_angle.x + by_spin.x, by_angle.y + by_spin.y);
         let lift = (wx * wx + wy * wy).root();
         let dynamic = self.dynamic_area * v_speed;
-        let induced = self.induced_drag * lift * lift
-            / (aspect * (dynamic + lit(0.3) * lift).larger(tiny));
+        let induced =
+            self.induced_drag * lift * lift / (aspect * (dynamic + lit(0.3) * lift).larger(tiny));
         let plate = dynamic * (edgewise + normal * sine2) + induced;
 
         // Drag of a bluff body on its shadow: Clift & Gauvin without the Stokes term.

@@ -65,7 +65,11 @@ impl Coefficient {
 /// # Panics
 /// If there are not as many places as [`COEFFICIENTS`].
 pub fn law_at(places: &[f64]) -> PhysicalLaw {
-    assert_eq!(places.len(), COEFFICIENTS.len(), "one place per coefficient");
+    assert_eq!(
+        places.len(),
+        COEFFICIENTS.len(),
+        "one place per coefficient"
+    );
     let mut law = PhysicalLaw::default();
     for (coefficient, place) in COEFFICIENTS.iter().zip(places) {
         let [low, high] = coefficient.bounds;

@@ -2,7 +2,7 @@
 
 use super::measured_discs::MEASURED;
 use super::{Shake, uniform_disc};
-use crate::motion::{Classifier, Outline, Numbers, PhaseDiagram, Regime, Trajectory};
+use crate::motion::{Classifier, Numbers, Outline, PhaseDiagram, Regime, Trajectory};
 use crate::training::{Experiment, Release};
 use crate::{DryMass, Error, Fluid, HydroProperties, ImmersedBody, ViscousLaw};
 use rapier3d::parry::shape::Cylinder;
@@ -70,7 +70,9 @@ impl Disc {
     /// None for these numbers.
     pub fn measured() -> Result<Vec<Self>, Error> {
         let discs = MEASURED.iter();
-        discs.map(|(re, i, regime)| Self::new(*re, *i, *regime)).collect()
+        discs
+            .map(|(re, i, regime)| Self::new(*re, *i, *regime))
+            .collect()
     }
 
     /// A disc of this I* in a liquid of the viscosity that gives about this Reynolds number.
@@ -185,7 +187,9 @@ mod tests {
     /// The labels were read off the measured points' own symbols, the curves drawn through them.
     #[test]
     fn the_curves_agree_with_the_points() {
-        let right = MEASURED.iter().filter(|(re, i, regime)| expected(*re, *i) == *regime);
+        let right = MEASURED
+            .iter()
+            .filter(|(re, i, regime)| expected(*re, *i) == *regime);
         let share = right.count() as f64 / MEASURED.len() as f64;
         assert!(share > 0.97, "{share}");
     }

@@ -179,10 +179,14 @@ impl Fidelity {
             let experiment = drop.experiment(law, seed(case, release))?;
             Ok(PaperFall::of(&fall(&experiment)?))
         })?;
-        let shares = each(&self.shares, effort.drops * 3 / 2, |share, case, release| {
-            let experiment = share.experiment(law, seed(case, release))?;
-            Ok(PaperFall::of(&fall(&experiment)?))
-        })?;
+        let shares = each(
+            &self.shares,
+            effort.drops * 3 / 2,
+            |share, case, release| {
+                let experiment = share.experiment(law, seed(case, release))?;
+                Ok(PaperFall::of(&fall(&experiment)?))
+            },
+        )?;
         Ok(Report {
             plates: zip(&self.plates, plates, |plate, falls| PlateResult {
                 plate: plate.clone(),

@@ -235,7 +235,12 @@ impl Paper {
         })
     }
 
-    fn experiment(&self, law: &ViscousLaw, edge_down: bool, seed: u64) -> Result<Experiment, Error> {
+    fn experiment(
+        &self,
+        law: &ViscousLaw,
+        edge_down: bool,
+        seed: u64,
+    ) -> Result<Experiment, Error> {
         let body = ImmersedBody::new(self.hydro.clone()).with_law(*law)?;
         let mut experiment = Experiment::new(body, self.mass, Fluid::new(AIR.0, AIR.1)?);
         let mut shake = Shake::new(seed);

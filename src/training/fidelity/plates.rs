@@ -1,6 +1,6 @@
 //! Plates that fall through water: Andersen, Pesavento & Wang, *J. Fluid Mech.* 541 (2005).
 
-use super::{uniform_box, Shake};
+use super::{Shake, uniform_box};
 use crate::motion::{Classifier, Regime, Trajectory};
 use crate::training::{Experiment, Release};
 use crate::{DryMass, Error, Fluid, HydroProperties, ImmersedBody, ViscousLaw};

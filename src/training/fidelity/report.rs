@@ -144,7 +144,10 @@ impl DiscMap {
 
     /// Share of the disagreeing falls within this factor of where the map would agree; 1 if all agree.
     pub fn near_misses(&self, margin: f64) -> f64 {
-        let misses = self.falls.iter().filter(|fall| fall.regime != fall.expected);
+        let misses = self
+            .falls
+            .iter()
+            .filter(|fall| fall.regime != fall.expected);
         let (near, all) = misses.fold((0, 0), |(near, all), fall| {
             (near + u32::from(fall.off_by <= margin), all + 1)
         });
