@@ -34,8 +34,9 @@
 //!
 //! and on this crate's own dynamics, [`FreeBody`](crate::FreeBody): a card in air in space under the
 //! thesis' law, over C̃ ± 5 %, density ratio and release angle, with forces separated over the six
-//! coordinates of the motion; and a plate in water under the default law in a plane, over density ratio
-//! and release angle:
+//! coordinates of the motion; and a plate in water in a plane, over density ratio and release angle, under
+//! the default law with a smoother set of coefficients than it has now (under those the plate is chaotic
+//! between flutter and tumbling, as measured, and nothing follows it across):
 //!
 //! | | T = 0.2 s | 0.5 | 1 | 2 | 3 |
 //! |---|---|---|---|---|---|
