@@ -5,6 +5,7 @@
 
 pub mod airplane;
 pub mod cli;
+pub mod draw;
 pub mod fall;
 pub mod gallery;
 pub mod glb;

@@ -117,37 +117,50 @@ pub fn write(
     columns: usize,
     size: (u32, u32),
 ) -> Result<(), Box<dyn Error>> {
+    Ok(std::fs::write(path, svg(title, panels, columns, size)?)?)
+}
+
+/// The same as a string.
+pub fn svg(
+    title: &str,
+    panels: &[Panel],
+    columns: usize,
+    size: (u32, u32),
+) -> Result<String, Box<dyn Error>> {
+    let mut svg = String::new();
     let rows = panels.len().div_ceil(columns);
     let whole = (size.0 * columns as u32, size.1 * rows as u32 + 44);
-    let root = SVGBackend::new(path, whole).into_drawing_area();
-    root.fill(&WHITE)?;
-    root.draw(&Text::new(title.to_string(), (16, 12), ("sans-serif", 20)))?;
-    let (_, below) = root.split_vertically(44);
-    for (area, panel) in below.split_evenly((rows, columns)).iter().zip(panels) {
-        let area = area.titled(&panel.title, ("sans-serif", 16))?;
-        let labels = if panel.axes.is_some() { 46 } else { 4 };
-        let (width, height) = area.dim_in_pixel();
-        let inner = (width - labels - 20, height - labels - 20);
-        let [x, y] = panel.ranges(inner);
-        let mut builder = ChartBuilder::on(&area);
-        builder
-            .margin(10)
-            .x_label_area_size(labels)
-            .y_label_area_size(labels);
-        if panel.logarithmic {
-            let x = (x.0..x.1).log_scale();
-            let y = (y.0..y.1).log_scale();
-            fill(builder.build_cartesian_2d(x, y)?, panel, power)?;
-        } else {
-            fill(
-                builder.build_cartesian_2d(x.0..x.1, y.0..y.1)?,
-                panel,
-                plain,
-            )?;
+    {
+        let root = SVGBackend::with_string(&mut svg, whole).into_drawing_area();
+        root.fill(&WHITE)?;
+        root.draw(&Text::new(title.to_string(), (16, 12), ("sans-serif", 20)))?;
+        let (_, below) = root.split_vertically(44);
+        for (area, panel) in below.split_evenly((rows, columns)).iter().zip(panels) {
+            let area = area.titled(&panel.title, ("sans-serif", 16))?;
+            let labels = if panel.axes.is_some() { 46 } else { 4 };
+            let (width, height) = area.dim_in_pixel();
+            let inner = (width - labels - 20, height - labels - 20);
+            let [x, y] = panel.ranges(inner);
+            let mut builder = ChartBuilder::on(&area);
+            builder
+                .margin(10)
+                .x_label_area_size(labels)
+                .y_label_area_size(labels);
+            if panel.logarithmic {
+                let x = (x.0..x.1).log_scale();
+                let y = (y.0..y.1).log_scale();
+                fill(builder.build_cartesian_2d(x, y)?, panel, power)?;
+            } else {
+                fill(
+                    builder.build_cartesian_2d(x.0..x.1, y.0..y.1)?,
+                    panel,
+                    plain,
+                )?;
+            }
         }
+        root.present()?;
     }
-    root.present()?;
-    Ok(())
+    Ok(svg)
 }
 
 fn plain(value: &f64) -> String {
