@@ -8,6 +8,7 @@ mod lifecycle;
 mod plain;
 mod readout;
 mod robustness;
+mod shapes;
 mod sphere;
 mod stream;
 mod support;
