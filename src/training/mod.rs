@@ -55,6 +55,7 @@
 pub mod cluster;
 pub mod energy;
 pub mod experiment;
+pub mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod file;
 pub mod grid;

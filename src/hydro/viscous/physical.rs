@@ -12,13 +12,19 @@ use std::f64::consts::PI;
 /// in water, paper in air, discs of any Reynolds number.
 ///
 /// With n the plate normal, `c` the chord along the motion, `A` the planform area, `AR` the aspect
-/// ratio span²/A, `Re = |u|c/ν`, and the velocity relative to the fluid **v** taken at the center
-/// of pressure `p = χ c u_t/|u|`, at the angle of attack `sin α = |v·n|/|v|`:
+/// ratio span²/A, `Re = |u|c/ν`, and the angle of attack `s = sin α = |u·n|/|u|`, the flow is
+/// attached to the share `f = 1/(1 + exp(2(s − s₀)/δ))`, and separated otherwise. All forces use the
+/// velocity relative to the fluid **v** at the center of pressure `p = χ f c u_t/|u|`:
 ///
-/// * drag `−½ρA|v| (C_D0 + (C_D90 − C_D0) sin²α) v` with skin friction and edges in `C_D0` and the
-///   broadside value `C_D90` from the measured disc curve; both pass to Stokes as Re → 0;
-/// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, from attached flow at small α to stalled flow,
-///   reduced by the aspect ratio, and absent below the onset of the wake (Re ≈ 95);
+/// * drag `−½ρA|v| (C_D0 + C_N sin²α + C_Di) v`: skin friction and edges in `C_D0`; in `C_N` the
+///   broadside value C_D90 − C_D0 from the measured disc curve, which passes to Stokes as Re → 0, and
+///   where the flow is attached the suction that a sharp leading edge loses, `2 k_s C_attached`
+///   (at `k_s` = 1 the force is normal to the plate);
+/// * induced drag `C_Di = k_i C_L²/(π AR)` with the lift coefficient C_L of both lifts together, as
+///   of a finite wing (Prandtl 1918): it is what makes a tumbling disc drift so much less than a
+///   tumbling strip;
+/// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, `C_T` from attached (f) to separated flow, each
+///   reduced by its aspect ratio, absent below the onset of the wake (Re ≈ 100);
 /// * rotational lift `ρAc C_R (1 − ε sin²α) ω_t × v`;
 /// * damping of the rotation by the pressure on the two halves of the plate and by friction;
 /// * the Munk moment of the added mass weakened to `munk`, because separated flow does not recover
@@ -28,7 +34,9 @@ use std::f64::consts::PI;
 /// the torque is that of the same force at the same point.
 ///
 /// The numbers come from a global search against falling plates in water (Andersen, Pesavento &
-/// Wang 2005), the regime map of discs (Field et al. 1997) and falling paper (Howison et al. 2020).
+/// Wang 2005), the regime map of discs (Field et al. 1997) and falling paper (Howison et al. 2020):
+/// [`training::fidelity`](crate::training::fidelity), example `calibrate`. What they reach is in
+/// the table of the example `validation`.
 ///
 /// Bodies that are not plates blend, by thickness, into the drag curve of a sphere (Clift &
 /// Gauvin 1971) on their actual shadow, with a Magnus force instead of the plate's lifts.
@@ -38,7 +46,7 @@ use std::f64::consts::PI;
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct PhysicalLaw {
-    /// χ: travel of the center of pressure toward the leading edge, in chords.
+    /// χ: travel of the center of pressure toward the leading edge in attached flow, in chords.
     pub pressure_travel: f64,
     /// C_attached: lift slope of attached flow, before the aspect ratio's `AR/(AR + λ₁)`.
     pub attached_lift: f64,
@@ -72,6 +80,11 @@ pub struct PhysicalLaw {
     pub lift_onset: f64,
     /// Re_D: below it rotation is damped more, `1 + (Re_D/Re)^1.5`.
     pub damping_onset: f64,
+    /// k_s: share of the leading edge's suction that attached flow loses: at 1 its force is normal to
+    /// the plate.
+    pub suction_loss: f64,
+    /// k_i: induced drag, in units of the elliptic wing's.
+    pub induced_drag: f64,
     /// C_M ∈ [½, 1]: Magnus force `C_M ρV ω × u` of bodies that are not plates.
     pub magnus: f64,
 }
@@ -96,6 +109,8 @@ impl Default for PhysicalLaw {
             edge_drag: 0.15,
             lift_onset: 95.0,
             damping_onset: 25.0,
+            suction_loss: 0.0,
+            induced_drag: 0.0,
             magnus: 0.5,
         }
     }
@@ -136,6 +151,8 @@ scalar_struct! {
         lift_onset,
         damping_onset,
         pressure_travel,
+        attached_drag,
+        induced_drag,
         /// Damping of the rotation about x, y, z by the pressure, per speed (1/m) …
         damping_u_x,
         damping_u_y,
@@ -211,6 +228,8 @@ impl PhysicalLaw {
             ("rotation_damping", self.rotation_damping),
             ("friction", self.friction),
             ("edge_drag", self.edge_drag),
+            ("suction_loss", self.suction_loss),
+            ("induced_drag", self.induced_drag),
             ("lift_onset", self.lift_onset),
             ("damping_onset", self.damping_onset),
             ("magnus", self.magnus),
@@ -288,6 +307,8 @@ impl PhysicalLaw {
             lift_onset: self.lift_onset,
             damping_onset: self.damping_onset,
             pressure_travel: self.pressure_travel * share,
+            attached_drag: 2.0 * self.suction_loss,
+            induced_drag: self.induced_drag / PI,
             damping_u_x: by_u(0),
             damping_u_y: by_u(1),
             damping_u_z: by_u(2),
@@ -346,14 +367,32 @@ impl<T: Scalar> PhysicalConstants<T> {
         let aspect = span2 / self.area;
         let re = (speed * chord * self.reynolds_scale).larger(lit(1e-3));
 
-        // Pressure point and its velocity.
-        let travel = self.pressure_travel * chord * per_speed;
+        // How much of the flow is attached, by the center's angle of attack.
+        let stall = self.stall_rate * (u.z.absolute() * per_speed - self.stall_sine);
+        let attached = one / (one + stall.exponential());
+
+        // Pressure point and its velocity. Separated flow presses on the center.
+        let travel = self.pressure_travel * attached * chord * per_speed;
         let arm = Vector3::new(travel * u.x, travel * u.y, zero);
         let vz = u.z + w.x * arm.y - w.y * arm.x;
         let v_speed = (tangential2 + vz * vz).root();
         let per_v = safe_inverse(v_speed);
         let sine = vz * per_v;
         let sine2 = sine * sine;
+
+        // Lifts: W of the force W × v.
+        let onset = self.lift_onset / re;
+        let onset2 = onset * onset;
+        let wake = one / (one + onset2 * onset2 * onset2 * onset);
+        let slope = self.attached_lift * aspect / (aspect + self.attached_aspect);
+        let stalled = self.stalled_lift * aspect / (aspect + self.stalled_aspect);
+        let density_area = self.dynamic_area + self.dynamic_area;
+        let translational = density_area * wake * sine * (stalled + attached * (slope - stalled));
+        let rotational = density_area * chord * self.rotational_lift * wake * aspect
+            / (aspect + self.rotational_aspect)
+            * (one - self.rotational_stall * sine2);
+        let by_angle = Vector3::new(-u.y, u.x, zero) * translational;
+        let by_spin = Vector3::new(rotational * w.x, rotational * w.y, zero);
 
         // Drag of the plate. Its creeping part is the linear resistance; what is left broadside is
         // the larger of the disc's mid range and its plateau.
@@ -366,7 +405,19 @@ impl<T: Scalar> PhysicalConstants<T> {
         let creeping_share = self.creeping_z * per_speed / self.dynamic_area;
         let broadside = mid.larger(self.broadside_plateau - creeping_share);
         let edgewise = self.friction / re.root() + self.edge_drag / chord;
-        let plate = self.dynamic_area * v_speed * (edgewise + (broadside - edgewise) * sine2);
+        // Attached flow that does not turn round the sharp edge pulls the lift back to the normal;
+        // broadside on there is no such flow.
+        let across = broadside - edgewise;
+        let behind = (self.attached_drag * slope - across).larger(zero);
+        let normal = across + wake * attached * (one - sine2) * behind;
+        // Induced drag of both lifts, C_L²/(π AR); linear beyond C_L ≈ 3, so that a body that only
+        // spins is not stopped dead.
+        let (wx, wy) = (by_angle.x + by_spin.x, by_angle.y + by_spin.y);
+        let lift = (wx * wx + wy * wy).root();
+        let dynamic = self.dynamic_area * v_speed;
+        let induced =
+            self.induced_drag * lift * lift / (aspect * (dynamic + lit(0.3) * lift).larger(tiny));
+        let plate = dynamic * (edgewise + normal * sine2) + induced;
 
         // Drag of a bluff body on its shadow: Clift & Gauvin without the Stokes term.
         let drag = if BLUFF {
@@ -384,20 +435,6 @@ impl<T: Scalar> PhysicalConstants<T> {
             plate
         };
 
-        // Lifts.
-        let onset = self.lift_onset / re;
-        let onset2 = onset * onset;
-        let wake = one / (one + onset2 * onset2 * onset2 * onset);
-        let stall = one + (self.stall_rate * (sine.absolute() - self.stall_sine)).exponential();
-        let attached = one / stall;
-        let lift = attached * self.attached_lift * aspect / (aspect + self.attached_aspect)
-            + (one - attached) * self.stalled_lift * aspect / (aspect + self.stalled_aspect);
-        let density_area = self.dynamic_area + self.dynamic_area;
-        let translational = density_area * lift * wake * sine;
-        let rotational = density_area * chord * self.rotational_lift * wake * aspect
-            / (aspect + self.rotational_aspect)
-            * (one - self.rotational_stall * sine2);
-
         // Damping. √(Re² + 1) keeps the low-Reynolds increase finite in a body at rest, where the
         // creeping resistance has long taken over.
         let onset = self.damping_onset / (re * re + one).root();
@@ -408,15 +445,11 @@ impl<T: Scalar> PhysicalConstants<T> {
         ViscousTerms {
             drag,
             creeping: Vector3::new(self.creeping_x, self.creeping_y, self.creeping_z),
-            translational_lift: Vector3::new(-u.y, u.x, zero) * translational,
+            translational_lift: by_angle,
             rotational_lift: if BLUFF {
-                Vector3::new(
-                    (rotational + self.magnus) * w.x,
-                    (rotational + self.magnus) * w.y,
-                    self.magnus * w.z,
-                )
+                by_spin + w * self.magnus
             } else {
-                Vector3::new(rotational * w.x, rotational * w.y, zero)
+                by_spin
             },
             arm,
             arm_moves: true,
