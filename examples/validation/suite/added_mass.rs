@@ -90,27 +90,56 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
         let name = format!("ellipsoid {a} : {b} : {c}");
         let formula = errors(&Ellipsoid { semi_axes }.added_mass(), &exact);
         let table = "Lamb § 114, five digits";
-        push(&mut rows, &format!("{name}, formula"), formula, Some(1e-4), table);
+        push(
+            &mut rows,
+            &format!("{name}, formula"),
+            formula,
+            Some(1e-4),
+            table,
+        );
         let (hydro, _) = thin_ellipsoid(axes, 1.0)?;
         let mesh = errors(&hydro.added_mass, &exact);
         let source = "Lamb § 114; the triangles lie inside the ellipsoid";
-        push(&mut rows, &format!("{name}, proxy of its mesh"), mesh, Some(0.02), source);
+        push(
+            &mut rows,
+            &format!("{name}, proxy of its mesh"),
+            mesh,
+            Some(0.02),
+            source,
+        );
     }
     let disc = Ellipsoid {
         semi_axes: Vector3::new(1.0, 1.0, 1e-6),
     }
     .added_mass();
-    let thin = [disc.linear[(2, 2)] / (8.0 / 3.0), disc.angular[(0, 0)] / (16.0 / 45.0)];
+    let thin = [
+        disc.linear[(2, 2)] / (8.0 / 3.0),
+        disc.angular[(0, 0)] / (16.0 / 45.0),
+    ];
     let thin = thin.map(|ratio| (ratio - 1.0).abs());
-    push(&mut rows, "thin disc, formula", thin, Some(1e-4), "8/3 ρa³, 16/45 ρa⁵");
+    push(
+        &mut rows,
+        "thin disc, formula",
+        thin,
+        Some(1e-4),
+        "8/3 ρa³, 16/45 ρa⁵",
+    );
     let elliptic = Ellipsoid {
         semi_axes: Vector3::new(2.0, 1.0, 1e-6),
     }
     .added_mass();
     for (what, found, exact) in [
         ("translation", elliptic.linear[(2, 2)], 6.91758),
-        ("rotation about the long axis", elliptic.angular[(0, 0)], 0.79523),
-        ("rotation about the short axis", elliptic.angular[(1, 1)], 4.39131),
+        (
+            "rotation about the long axis",
+            elliptic.angular[(0, 0)],
+            0.79523,
+        ),
+        (
+            "rotation about the short axis",
+            elliptic.angular[(1, 1)],
+            4.39131,
+        ),
     ] {
         let case = format!("thin elliptic disc 2 : 1, formula, {what}");
         let source = "(4/3)πρab²/E(e), and Lamb's limits";
@@ -180,13 +209,25 @@ fn plates(rows: &mut Vec<Row>, effort: Effort, progress: Progress) -> Result<(),
     let cube = SharedShape::cuboid(0.5, 0.5, 0.5);
     let proxy = HydroProperties::from_shape(cube.as_ref())?.added_mass;
     let source = "cube: .638 ρa³ (source boundary elements, polarisability); the proxy has no bar";
-    rows.push(Row::number("cube, proxy", [0.638, proxy.linear[(0, 0)]], "ρa³", None, source));
+    rows.push(Row::number(
+        "cube, proxy",
+        [0.638, proxy.linear[(0, 0)]],
+        "ρa³",
+        None,
+        source,
+    ));
     #[cfg(feature = "bake")]
     {
         let (found, _) = AddedMass::of_shape(cube.as_ref(), Default::default(), 0.005)?;
         let pair = [0.638, found.linear[(0, 0)]];
         let case = "cube, boundary elements";
-        rows.push(Row::number(case, pair, "ρa³", Some(0.01), "polarisability of the cube"));
+        rows.push(Row::number(
+            case,
+            pair,
+            "ρa³",
+            Some(0.01),
+            "polarisability of the cube",
+        ));
     }
     Ok(())
 }

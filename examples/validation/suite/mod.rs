@@ -1,6 +1,11 @@
 //! The cases, section by section.
 
+mod added_mass;
+mod discs;
 mod drag;
+mod falls;
+mod papers;
+mod plates;
 pub mod report;
 pub mod runner;
 
@@ -37,8 +42,16 @@ pub type Progress<'a> = &'a dyn Fn(f64);
 /// The sections, in the order of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum SectionName {
+    /// Plates in water that tumble, go astray and flutter
+    Plates,
+    /// The map of falling discs
+    Discs,
+    /// Paper circles and hexagons in air
+    Papers,
     /// Drag of spheres and broadside discs over the Reynolds number
     Drag,
+    /// Added mass against closed forms and tables
+    AddedMass,
 }
 
 impl SectionName {
@@ -52,14 +65,22 @@ impl SectionName {
     /// As on the command line.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Plates => "plates",
+            Self::Discs => "discs",
+            Self::Papers => "papers",
             Self::Drag => "drag",
+            Self::AddedMass => "added-mass",
         }
     }
 
     /// What it is about.
     pub fn title(self) -> &'static str {
         match self {
+            Self::Plates => "plates in water",
+            Self::Discs => "the map of discs",
+            Self::Papers => "paper in air",
             Self::Drag => "drag of spheres and discs",
+            Self::AddedMass => "added mass",
         }
     }
 
@@ -67,7 +88,11 @@ impl SectionName {
     /// What the library or the drawing says.
     pub fn compute(self, effort: Effort, progress: Progress) -> Result<Section, Failure> {
         let (rows, pictures) = match self {
+            Self::Plates => plates::compute(effort, progress)?,
+            Self::Discs => discs::compute(effort, progress)?,
+            Self::Papers => papers::compute(effort, progress)?,
             Self::Drag => drag::compute(effort, progress)?,
+            Self::AddedMass => added_mass::compute(effort, progress)?,
         };
         Ok(Section {
             name: self.name(),

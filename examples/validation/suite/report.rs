@@ -82,6 +82,42 @@ impl Row {
         }
     }
 
+    /// A share that must be at least `bar`.
+    pub fn share(case: impl Into<String>, ours: f64, bar: f64, source: impl Into<String>) -> Self {
+        Self {
+            case: case.into(),
+            measured: Quantity::Word(format!("at least {:.0} %", 100.0 * bar)),
+            ours: Quantity::Number(100.0 * ours, "%"),
+            error: None,
+            bar: None,
+            verdict: if ours >= bar {
+                Verdict::Met
+            } else {
+                Verdict::NotMet
+            },
+            source: source.into(),
+        }
+    }
+
+    /// A number that must be in a range; `None` if there is none.
+    pub fn within(
+        case: impl Into<String>,
+        [low, high]: [f64; 2],
+        ours: Option<f64>,
+        source: impl Into<String>,
+    ) -> Self {
+        let met = ours.is_some_and(|x| low <= x && x <= high);
+        Self {
+            case: case.into(),
+            measured: Quantity::Word(format!("{} to {}", digits(low), digits(high))),
+            ours: ours.map_or(Quantity::Word("none".into()), |x| Quantity::Number(x, "")),
+            error: None,
+            bar: None,
+            verdict: if met { Verdict::Met } else { Verdict::NotMet },
+            source: source.into(),
+        }
+    }
+
     /// A regime: met if it is the measured one.
     pub fn word(
         case: impl Into<String>,
