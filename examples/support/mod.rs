@@ -13,6 +13,7 @@ pub mod law;
 pub mod leaf;
 pub mod mesh;
 pub mod picture;
+pub mod previous;
 pub mod recording;
 pub mod scene;
 pub mod sheet;

@@ -3,7 +3,10 @@
 mod added_mass;
 mod discs;
 mod drag;
+mod energy;
+mod falling_plate;
 mod falls;
+mod kirchhoff;
 mod papers;
 mod plates;
 pub mod report;
@@ -52,6 +55,12 @@ pub enum SectionName {
     Drag,
     /// Added mass against closed forms and tables
     AddedMass,
+    /// Invariants of an ideal fluid, and a pendulum in it
+    Kirchhoff,
+    /// Energy in a fluid at rest
+    Energy,
+    /// The quasi-steady plate in two dimensions
+    FallingPlate,
 }
 
 impl SectionName {
@@ -70,6 +79,9 @@ impl SectionName {
             Self::Papers => "papers",
             Self::Drag => "drag",
             Self::AddedMass => "added-mass",
+            Self::Kirchhoff => "kirchhoff",
+            Self::Energy => "energy",
+            Self::FallingPlate => "falling-plate",
         }
     }
 
@@ -81,6 +93,9 @@ impl SectionName {
             Self::Papers => "paper in air",
             Self::Drag => "drag of spheres and discs",
             Self::AddedMass => "added mass",
+            Self::Kirchhoff => "ideal fluid",
+            Self::Energy => "energy in still fluid",
+            Self::FallingPlate => "plate in two dimensions",
         }
     }
 
@@ -93,6 +108,9 @@ impl SectionName {
             Self::Papers => papers::compute(effort, progress)?,
             Self::Drag => drag::compute(effort, progress)?,
             Self::AddedMass => added_mass::compute(effort, progress)?,
+            Self::Kirchhoff => kirchhoff::compute(effort, progress)?,
+            Self::Energy => energy::compute(effort, progress)?,
+            Self::FallingPlate => falling_plate::compute(effort, progress)?,
         };
         Ok(Section {
             name: self.name(),
