@@ -137,15 +137,19 @@ pub fn svg(
         let (_, below) = root.split_vertically(44);
         for (area, panel) in below.split_evenly((rows, columns)).iter().zip(panels) {
             let area = area.titled(&panel.title, ("sans-serif", 16))?;
-            let labels = if panel.axes.is_some() { 46 } else { 4 };
+            let [labels, side] = if panel.axes.is_some() {
+                [46, 58]
+            } else {
+                [4; 2]
+            };
             let (width, height) = area.dim_in_pixel();
-            let inner = (width - labels - 20, height - labels - 20);
+            let inner = (width - side - 20, height - labels - 20);
             let [x, y] = panel.ranges(inner);
             let mut builder = ChartBuilder::on(&area);
             builder
                 .margin(10)
                 .x_label_area_size(labels)
-                .y_label_area_size(labels);
+                .y_label_area_size(side);
             if panel.logarithmic {
                 let x = (x.0..x.1).log_scale();
                 let y = (y.0..y.1).log_scale();

@@ -64,6 +64,9 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
     Ok((rows, vec![("discs.svg".into(), picture)]))
 }
 
+/// Smallest I* of the picture.
+const LOWEST: f64 = 4e-4;
+
 fn color(regime: Regime) -> RGBColor {
     let class = CLASSES.iter().find(|(class, _)| *class == regime);
     class.map_or(RGBColor(0, 0, 0), |(_, color)| *color)
@@ -72,11 +75,13 @@ fn color(regime: Regime) -> RGBColor {
 fn map(title: &str) -> Panel {
     let mut panel = Panel::new(title, "Reynolds number by mean descent", "I*");
     panel.logarithmic = true;
-    panel.window = Some([(15.0, 4e4), (4e-4, 0.3)]);
+    panel.window = Some([(15.0, 4e4), (LOWEST, 0.3)]);
     for boundary in PhaseDiagram::default().boundaries() {
         if boundary.measured {
             let grey = RGBColor(120, 120, 120);
-            panel.items.push(Item::Line(boundary.points, grey, 2));
+            let inside = |p: &Point| p.1 >= LOWEST;
+            let points = boundary.points.into_iter().filter(inside).collect();
+            panel.items.push(Item::Line(points, grey, 2));
         }
     }
     panel

@@ -11,6 +11,7 @@ mod papers;
 mod plates;
 pub mod report;
 pub mod runner;
+mod thesis;
 
 use report::{Row, Section};
 
@@ -61,6 +62,8 @@ pub enum SectionName {
     Energy,
     /// The quasi-steady plate in two dimensions
     FallingPlate,
+    /// Figures 5.4 and 5.13 of the thesis
+    Thesis,
 }
 
 impl SectionName {
@@ -82,6 +85,7 @@ impl SectionName {
             Self::Kirchhoff => "kirchhoff",
             Self::Energy => "energy",
             Self::FallingPlate => "falling-plate",
+            Self::Thesis => "thesis",
         }
     }
 
@@ -96,6 +100,7 @@ impl SectionName {
             Self::Kirchhoff => "ideal fluid",
             Self::Energy => "energy in still fluid",
             Self::FallingPlate => "plate in two dimensions",
+            Self::Thesis => "figures of the thesis",
         }
     }
 
@@ -111,6 +116,7 @@ impl SectionName {
             Self::Kirchhoff => kirchhoff::compute(effort, progress)?,
             Self::Energy => energy::compute(effort, progress)?,
             Self::FallingPlate => falling_plate::compute(effort, progress)?,
+            Self::Thesis => thesis::compute(effort, progress)?,
         };
         Ok(Section {
             name: self.name(),
