@@ -62,6 +62,9 @@ struct Arguments {
     /// Release angles per plate and disc during the search.
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=6))]
     releases: u64,
+    /// Drops per set of papers during the search.
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..1000))]
+    drops: u64,
     /// JSON file of the law to begin with; without it the default law.
     #[arg(long)]
     from: Option<PathBuf>,
@@ -174,6 +177,7 @@ fn search(arguments: &Arguments, all: &Fidelity, start: &PhysicalLaw) -> Physica
         fidelity,
         effort: Effort {
             releases: arguments.releases as usize,
+            drops: arguments.drops as usize,
             ..Effort::default()
         },
         seen: RefCell::new(Seen {

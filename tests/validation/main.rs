@@ -2,6 +2,7 @@
 
 mod determinism;
 mod equivalence;
+mod fidelity;
 mod impact;
 mod kirchhoff;
 mod lifecycle;
@@ -14,3 +15,4 @@ mod stream;
 mod support;
 mod thesis_law;
 mod turbulence;
+mod wing;

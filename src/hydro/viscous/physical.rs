@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 ///   broadside value C_D90 − C_D0 from the measured disc curve, which passes to Stokes as Re → 0, and
 ///   where the flow is attached the suction that a sharp leading edge loses, `2 k_s C_attached`
 ///   (at `k_s` = 1 the force is normal to the plate);
-/// * induced drag `C_Di = k_i C_L²/(π AR)` with the lift coefficient C_L of both lifts together, as
+/// * induced drag `C_Di = k_i C_L²/(π AR)` (linear for C_L ≫ 3) with the lift coefficient C_L of both lifts together, as
 ///   of a finite wing (Prandtl 1918): it is what makes a tumbling disc drift so much less than a
 ///   tumbling strip;
 /// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, `C_T` from attached (f) to separated flow, each
@@ -92,25 +92,25 @@ pub struct PhysicalLaw {
 impl Default for PhysicalLaw {
     fn default() -> Self {
         Self {
-            pressure_travel: 0.112,
-            attached_lift: PI,
-            attached_aspect: 1.85,
-            stalled_lift: 0.65,
-            stalled_aspect: 0.5,
-            stall_sine: 0.74,
-            stall_width: 0.35,
-            rotational_lift: 0.80,
-            rotational_aspect: 1.5,
-            rotational_stall: 0.5,
-            munk: 0.16,
-            translation_damping: 0.655,
-            rotation_damping: 1.35,
-            friction: 5.4,
-            edge_drag: 0.15,
-            lift_onset: 95.0,
-            damping_onset: 25.0,
-            suction_loss: 0.0,
-            induced_drag: 0.0,
+            pressure_travel: 0.0962,
+            attached_lift: 5.12,
+            attached_aspect: 2.06,
+            stalled_lift: 2.0,
+            stalled_aspect: 1.1,
+            stall_sine: 0.835,
+            stall_width: 0.812,
+            rotational_lift: 1.89,
+            rotational_aspect: 6.55,
+            rotational_stall: 0.176,
+            munk: 0.0345,
+            translation_damping: 0.0827,
+            rotation_damping: 3.41,
+            friction: 2.46,
+            edge_drag: 0.0,
+            lift_onset: 119.0,
+            damping_onset: 52.9,
+            suction_loss: 0.877,
+            induced_drag: 1.54,
             magnus: 0.5,
         }
     }
@@ -410,8 +410,8 @@ impl<T: Scalar> PhysicalConstants<T> {
         let across = broadside - edgewise;
         let behind = (self.attached_drag * slope - across).larger(zero);
         let normal = across + wake * attached * (one - sine2) * behind;
-        // Induced drag of both lifts, C_L²/(π AR); linear beyond C_L ≈ 3, so that a body that only
-        // spins is not stopped dead.
+        // Induced drag of both lifts, C_L²/(π AR (1 + 0.3 C_L)): linear where C_L is large, so that a
+        // body that hardly does more than spin is not stopped dead.
         let (wx, wy) = (by_angle.x + by_spin.x, by_angle.y + by_spin.y);
         let lift = (wx * wx + wy * wy).root();
         let dynamic = self.dynamic_area * v_speed;

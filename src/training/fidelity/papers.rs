@@ -19,8 +19,9 @@ const AIR: (f32, f32) = (1.2754, 1.48e-5);
 const WINDOW: (f64, f64) = (0.40, 1.05);
 /// Released by hand. How evenly was not published: ours, deviations of tilt (rad) and spin (rad/s).
 const SHAKE: (f64, f64) = (0.1, 0.3);
-/// A drop tumbles if at least this share of its turns go on.
-const TUMBLES: f64 = 0.8;
+/// A drop tumbles if it flips at least so often, and at least this share of its turns go on: how the
+/// published analysis decides is not stated, but one flip is no tumbling.
+const TUMBLES: (u32, f64) = (2, 0.8);
 
 /// Outline of a piece of paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,7 +100,7 @@ impl PaperFall {
         Some(Self {
             descent: -moved.y / time,
             drift: moved.x.hypot(moved.z) / time,
-            tumbles: seen.flips > 0 && seen.tumbling() >= TUMBLES,
+            tumbles: seen.flips >= TUMBLES.0 && seen.tumbling() >= TUMBLES.1,
         })
     }
 }

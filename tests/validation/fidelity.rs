@@ -1,0 +1,101 @@
+//! Measured falls: the bars that the default law was calibrated to reach. The example `validation` has
+//! the whole table.
+
+use rapier3d_immersed::ViscousLaw;
+use rapier3d_immersed::motion::Regime;
+use rapier3d_immersed::training::Experiment;
+use rapier3d_immersed::training::fidelity::{Effort, Fidelity, Part, Plate};
+
+/// Other releases than those of the calibration, whose seed is 1.
+const EFFORT: Effort = Effort {
+    seed: 29,
+    releases: 3,
+    drops: 12,
+};
+
+#[test]
+fn plates_tumble_flutter_and_are_chaotic() {
+    let fidelity = Fidelity {
+        plates: Plate::measured().unwrap(),
+        ..Fidelity::default()
+    };
+    let report = fidelity
+        .run(&ViscousLaw::default(), &EFFORT, Experiment::run)
+        .unwrap();
+    for result in &report.plates {
+        let plate = &result.plate;
+        assert_eq!(result.regime(), plate.regime, "1/{}", 1.0 / plate.beta);
+        let means = [
+            (plate.drift, result.mean(|fall| fall.drift)),
+            (plate.descent, result.mean(|fall| fall.descent)),
+            (plate.spin, result.mean(|fall| fall.spin)),
+        ];
+        for (measured, ours) in means {
+            let Some(measured) = measured else { continue };
+            assert!((ours / measured - 1.0).abs() < 0.1, "{ours} {measured}");
+        }
+    }
+    assert_eq!(report.plates[0].plate.regime, Regime::PeriodicTumbling);
+}
+
+#[test]
+fn discs_fall_as_the_map_says() {
+    let mut fidelity = Fidelity::new().unwrap();
+    fidelity.plates.clear();
+    fidelity.papers.clear();
+    fidelity.shares.clear();
+    let report = fidelity
+        .run(&ViscousLaw::default(), &EFFORT, Experiment::run)
+        .unwrap();
+    let map = &report.discs;
+    assert!(map.agreement() > 0.85, "{}", map.agreement());
+    for (class, agreement) in map.agreement_by_class().iter().enumerate() {
+        assert!(*agreement > 0.7, "{class}: {agreement}");
+    }
+    assert!(map.near_misses(0.2) > 0.7, "{}", map.near_misses(0.2));
+}
+
+/// Descent within 10 % of what was measured for two sets in three; the others (circles of 27.6 mm fall a
+/// sixth too fast) within 20 %. The size at which half of the circles tumble: measured .043 to .049.
+#[test]
+fn papers_fall_as_fast_as_paper() {
+    let mut fidelity = Fidelity::new().unwrap();
+    fidelity.plates.clear();
+    fidelity.discs.clear();
+    let report = fidelity
+        .run(&ViscousLaw::default(), &EFFORT, Experiment::run)
+        .unwrap();
+    let errors = report.papers.iter().map(|result| {
+        let ours = result.mean(|fall| fall.descent);
+        (ours / result.drop.descent - 1.0).abs()
+    });
+    let errors: Vec<f64> = errors.collect();
+    let within = |bar: f64| errors.iter().filter(|error| **error < bar).count();
+    assert!(within(0.1) >= 6 && within(0.2) == 9, "{errors:?}");
+    let crossing = report.tumbling_crossing().unwrap();
+    assert!((0.040..0.052).contains(&crossing), "{crossing}");
+}
+
+#[test]
+fn parts_share_nothing_and_leave_nothing_out() {
+    let all = Fidelity::new().unwrap();
+    let fitted = all.clone().part(Part::Fitted);
+    let held_out = all.clone().part(Part::HeldOut);
+    assert_eq!(fitted.discs.len() + held_out.discs.len(), 200);
+    assert_eq!(
+        fitted.papers.len() + held_out.papers.len(),
+        all.papers.len()
+    );
+    let betas = |part: &Fidelity| -> Vec<f64> { part.plates.iter().map(|p| p.beta).collect() };
+    assert_eq!(betas(&fitted), [1.0 / 8.0, 1.0 / 10.0, 1.0 / 14.0]);
+    assert_eq!(betas(&held_out), [1.0 / 9.5, 1.0 / 11.0]);
+    let error = all.run(
+        &ViscousLaw::default(),
+        &Effort {
+            releases: 0,
+            ..EFFORT
+        },
+        Experiment::run,
+    );
+    assert!(error.unwrap_err().to_string().contains("releases"));
+}
