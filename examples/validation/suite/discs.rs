@@ -36,8 +36,12 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
                 let moved = (share - agreement(&all[0])).abs();
                 Row::at_most(case("agreement moves by"), moved, Some(0.02), same)
             }
-            Runner::Rapier(times) => {
-                let bar = if times == 1 { 0.03 } else { 0.1 };
+            Runner::Rapier(_) | Runner::Fine(_) => {
+                let bar = if runner == Runner::Rapier(1) {
+                    0.03
+                } else {
+                    0.1
+                };
                 let pair = [agreement(&all[0]), share].map(|s| 100.0 * s);
                 Row::number(case("agreement"), pair, "%", Some(bar), same)
             }

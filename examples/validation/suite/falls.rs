@@ -6,11 +6,12 @@ use rapier3d_immersed::ViscousLaw;
 use rapier3d_immersed::training::fidelity::{self, Fidelity, Report};
 
 /// The runners; the first is the reference of the others.
-pub const RUNNERS: [Runner; 4] = [
+pub const RUNNERS: [Runner; 5] = [
     Runner::Alone,
     Runner::HalfStep,
     Runner::Rapier(1),
     Runner::Rapier(4),
+    Runner::Fine(4),
 ];
 
 /// What the step is, for the column of sources.
@@ -27,12 +28,12 @@ pub fn reports(
     measured: &Fidelity,
     effort: Effort,
     progress: Progress,
-) -> Result<[Reports; 4], Failure> {
-    let seeds = effort.choose(4, 1);
-    let mut all: [Reports; 4] = Default::default();
-    let mut done = 0;
+) -> Result<[Reports; 5], Failure> {
+    let seeds: usize = effort.choose(4, 1);
+    let mut all: [Reports; 5] = Default::default();
+    let mut done = 0usize;
     for (reports, runner) in all.iter_mut().zip(RUNNERS) {
-        for seed in 1..=seeds {
+        for seed in 1..=seeds as u64 {
             let effort = fidelity::Effort {
                 seed,
                 releases: effort.choose(6, 2),
@@ -41,7 +42,7 @@ pub fn reports(
             let law = ViscousLaw::default();
             reports.push(measured.run(&law, &effort, |experiment| runner.run(experiment))?);
             done += 1;
-            progress(done as f64 / (4 * seeds) as f64);
+            progress(done as f64 / (RUNNERS.len() * seeds) as f64);
         }
     }
     Ok(all)

@@ -64,7 +64,7 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
             let bar = match runner {
                 Runner::Alone | Runner::HalfStep => None,
                 Runner::Rapier(1) => Some(0.03),
-                Runner::Rapier(_) => Some(0.1),
+                Runner::Rapier(_) | Runner::Fine(_) => Some(0.1),
             };
             if runner != Runner::Alone {
                 let case = format!("papers, mean {what} of all sets, {}", runner.name());

@@ -64,7 +64,9 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
                     }
                     Runner::HalfStep => Row::number(case(what), numbers, unit, None, source),
                     Runner::Rapier(1) => Row::number(case(what), numbers, unit, Some(0.03), source),
-                    Runner::Rapier(_) => Row::number(case(what), numbers, unit, Some(0.1), source),
+                    Runner::Rapier(_) | Runner::Fine(_) => {
+                        Row::number(case(what), numbers, unit, Some(0.1), source)
+                    }
                 });
             }
         }

@@ -6,7 +6,7 @@ use rapier3d_immersed::rapier3d::math::Vector;
 use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder};
 use rapier3d_immersed::training::Experiment;
-use rapier3d_immersed::{Error, Immersion};
+use rapier3d_immersed::{Error, Immersion, Integrator};
 
 /// Who integrates, and how finely. The experiment's own step is 1/240 s for plates and papers, and scaled
 /// to the size of a disc.
@@ -19,7 +19,18 @@ pub enum Runner {
     /// A rapier world (f32) whose step is so many times the experiment's; the fall is recorded at every
     /// step.
     Rapier(u32),
+    /// The same, with steps integrated more finely than by default.
+    Fine(u32),
 }
+
+/// Substeps of a tenth of a chord with two evaluations: what falls are trained with
+/// (`Experiment::for_training`).
+const FINE: Integrator = Integrator {
+    max_turn: 0.6,
+    max_travel: 0.1,
+    max_substeps: 64,
+    iterations: 2,
+};
 
 impl Runner {
     /// For tables.
@@ -30,6 +41,8 @@ impl Runner {
             Self::Rapier(1) => "rapier, dt",
             Self::Rapier(4) => "rapier, 4 dt",
             Self::Rapier(_) => "rapier",
+            Self::Fine(4) => "rapier, 4 dt, fine substeps",
+            Self::Fine(_) => "rapier, fine substeps",
         }
     }
 
@@ -46,6 +59,13 @@ impl Runner {
             }
             .run(),
             Self::Rapier(times) => in_rapier(experiment, experiment.dt * f64::from(times)),
+            Self::Fine(times) => {
+                let fine = Experiment {
+                    integrator: FINE,
+                    ..experiment.clone()
+                };
+                in_rapier(&fine, experiment.dt * f64::from(times))
+            }
         }
     }
 }
