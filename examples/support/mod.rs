@@ -16,6 +16,7 @@ pub mod picture;
 pub mod previous;
 pub mod recording;
 pub mod scene;
+pub mod seed;
 pub mod sheet;
 pub mod specimen;
 pub mod statistics;

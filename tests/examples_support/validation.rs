@@ -53,6 +53,18 @@ fn measured_falls_are_compared() {
     }
 }
 
+/// In rapier as well as alone: the seed spins from the one or the other release.
+#[test]
+fn the_seed_is_compared() {
+    let section = quick(SectionName::Seed);
+    assert_eq!(section.rows.len(), 9);
+    let alone = &section.rows[0];
+    assert!(
+        matches!(alone.ours, Quantity::Number(share, "%") if share > 0.0),
+        "{alone:?}"
+    );
+}
+
 /// A fall in rapier is recorded from its release on like the stand-alone one, and is the same at first.
 #[test]
 fn runners_record_the_same_fall() {
@@ -110,6 +122,7 @@ fn what_is_not_met_is_shown_as_not_met() {
 fn sections_come_in_order_and_once() {
     let all = SectionName::chosen(&[]);
     assert_eq!(all, SectionName::value_variants());
+    assert_eq!(Effort::Full.choose(1, 2), 1);
     let two = SectionName::chosen(&[SectionName::Energy, SectionName::Drag, SectionName::Energy]);
     assert_eq!(two, [SectionName::Drag, SectionName::Energy]);
 }

@@ -11,6 +11,7 @@ mod papers;
 mod plates;
 pub mod report;
 pub mod runner;
+mod seed;
 mod thesis;
 
 use report::{Row, Section};
@@ -52,6 +53,8 @@ pub enum SectionName {
     Discs,
     /// Paper circles and hexagons in air
     Papers,
+    /// A maple seed that spins
+    Seed,
     /// Drag of spheres and broadside discs over the Reynolds number
     Drag,
     /// Added mass against closed forms and tables
@@ -80,6 +83,7 @@ impl SectionName {
             Self::Plates => "plates",
             Self::Discs => "discs",
             Self::Papers => "papers",
+            Self::Seed => "seed",
             Self::Drag => "drag",
             Self::AddedMass => "added-mass",
             Self::Kirchhoff => "kirchhoff",
@@ -95,6 +99,7 @@ impl SectionName {
             Self::Plates => "plates in water",
             Self::Discs => "the map of discs",
             Self::Papers => "paper in air",
+            Self::Seed => "maple seed",
             Self::Drag => "drag of spheres and discs",
             Self::AddedMass => "added mass",
             Self::Kirchhoff => "ideal fluid",
@@ -111,6 +116,7 @@ impl SectionName {
             Self::Plates => plates::compute(effort, progress)?,
             Self::Discs => discs::compute(effort, progress)?,
             Self::Papers => papers::compute(effort, progress)?,
+            Self::Seed => seed::compute(effort, progress)?,
             Self::Drag => drag::compute(effort, progress)?,
             Self::AddedMass => added_mass::compute(effort, progress)?,
             Self::Kirchhoff => kirchhoff::compute(effort, progress)?,
