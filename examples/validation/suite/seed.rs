@@ -22,21 +22,23 @@ fn release(index: usize) -> Quat {
     Quat::from_euler_angles(-FRAC_PI_2 + 0.5 * angle.sin(), 0.0, 0.5 * angle.cos())
 }
 
-/// Mean descent, m/s, and spin about the vertical, rad/s, over the last quarter, from descents and spins.
+/// Mean descent, m/s, and spin about the vertical, rad/s, over the last quarter.
 fn late(states: &[(f64, f64)]) -> [f64; 2] {
     let last = &states[states.len() * 3 / 4..];
-    let mean = |of: fn(&(f64, f64)) -> f64| last.iter().map(of).sum::<f64>() / last.len() as f64;
-    [mean(|s| s.0), mean(|s| s.1).abs()]
+    let spin = last.iter().map(|s| s.1).sum::<f64>() / last.len() as f64;
+    let steps = (last.len() - 1) as f64;
+    let time = SECONDS * steps / states.len() as f64;
+    [(last[0].0 - last[last.len() - 1].0) / time, spin.abs()]
 }
 
-/// Every step: descent and spin about the vertical.
+/// After every step: height of the center of mass, m, and spin about the vertical, rad/s.
 fn alone(index: usize, dt: f64) -> Result<Vec<(f64, f64)>, Error> {
     let (body, mass) = samara()?;
     let mut seed = FreeBody::new(&body, &mass, &Fluid::AIR)?;
     seed.set_orientation(release(index));
     let step = |_| {
         seed.step(dt, GRAVITY);
-        (-seed.linear_velocity().y, seed.angular_velocity().y)
+        (seed.position.y, seed.angular_velocity().y)
     };
     Ok((0..(SECONDS / dt).round() as usize).map(step).collect())
 }
@@ -56,7 +58,10 @@ fn in_rapier(index: usize, dt: f64) -> Result<Vec<(f64, f64)>, Error> {
     let step = |_| {
         immersion.step(&mut world);
         let body = &world.bodies[seed];
-        (-from_rapier(body.linvel()).y, from_rapier(body.angvel()).y)
+        (
+            from_rapier(body.center_of_mass()).y,
+            from_rapier(body.angvel()).y,
+        )
     };
     Ok((0..(SECONDS / dt).round() as usize).map(step).collect())
 }
