@@ -10,6 +10,7 @@
 mod case;
 mod error_figure;
 mod picture;
+#[path = "../support/previous.rs"]
 mod previous;
 mod proxy;
 

@@ -5,13 +5,13 @@
 //! cargo run --release --features bake,serde-serialize --example patterns -- --out out
 //! ```
 
-mod draw;
 mod falls;
 mod phase;
+#[path = "../support/mod.rs"]
+mod support;
 mod training;
 
 use clap::Parser;
-use draw::Panel;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rapier3d_immersed::training::Experiment;
 use rapier3d_immersed::{Error, ThesisLaw, ViscousLaw};
@@ -19,6 +19,7 @@ use serde_json::json;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use support::draw::{self, Panel};
 use training::Trained;
 
 /// Draws the phase diagram and the figures of thesis chapter 5.

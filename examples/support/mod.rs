@@ -5,6 +5,7 @@
 
 pub mod airplane;
 pub mod cli;
+pub mod draw;
 pub mod fall;
 pub mod gallery;
 pub mod glb;
@@ -12,8 +13,10 @@ pub mod law;
 pub mod leaf;
 pub mod mesh;
 pub mod picture;
+pub mod previous;
 pub mod recording;
 pub mod scene;
+pub mod seed;
 pub mod sheet;
 pub mod specimen;
 pub mod statistics;

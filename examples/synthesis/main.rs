@@ -5,8 +5,8 @@
 //! cargo run --release --features bake --example synthesis -- --out out
 //! ```
 
-#[path = "../patterns/draw.rs"]
-#[allow(dead_code, reason = "shared with the patterns example")]
+#[path = "../support/draw.rs"]
+#[allow(dead_code, reason = "shared with other examples")]
 mod draw;
 mod figures;
 mod tree;

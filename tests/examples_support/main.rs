@@ -1,5 +1,7 @@
 //! What the examples share is tested here: examples themselves have no tests.
 
+#[path = "../../examples/validation/suite/mod.rs"]
+mod suite;
 #[path = "../../examples/support/mod.rs"]
 mod support;
 
@@ -10,3 +12,4 @@ mod leaves;
 mod meshes;
 mod specimens;
 mod statistics;
+mod validation;

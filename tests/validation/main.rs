@@ -9,6 +9,9 @@ mod lifecycle;
 mod plain;
 mod readout;
 mod robustness;
+#[path = "../../examples/support/seed.rs"]
+mod seed;
+mod shapes;
 mod sphere;
 mod stream;
 mod support;

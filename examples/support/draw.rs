@@ -129,46 +129,74 @@ pub fn write_with_legend(
     columns: usize,
     size: (u32, u32),
 ) -> Result<(), Box<dyn Error>> {
+    let svg = svg_with_legend(title, legend, panels, columns, size)?;
+    Ok(std::fs::write(path, svg)?)
+}
+
+/// The panels as a string.
+pub fn svg(
+    title: &str,
+    panels: &[Panel],
+    columns: usize,
+    size: (u32, u32),
+) -> Result<String, Box<dyn Error>> {
+    svg_with_legend(title, &[], panels, columns, size)
+}
+
+fn svg_with_legend(
+    title: &str,
+    legend: &[(String, RGBColor)],
+    panels: &[Panel],
+    columns: usize,
+    size: (u32, u32),
+) -> Result<String, Box<dyn Error>> {
+    let mut svg = String::new();
     let rows = panels.len().div_ceil(columns);
     let whole = (size.0 * columns as u32, size.1 * rows as u32 + 44);
-    let root = SVGBackend::new(path, whole).into_drawing_area();
-    root.fill(&WHITE)?;
-    root.draw(&Text::new(title.to_string(), (16, 12), ("sans-serif", 20)))?;
-    let mut right = whole.0 as i32 - 16;
-    for (name, color) in legend.iter().rev() {
-        let style = ("sans-serif", 15).into_font().color(color);
-        right -= root.estimate_text_size(name, &style)?.0 as i32 + 8;
-        root.draw(&Text::new(name.clone(), (right, 15), style))?;
-        let line = vec![(right - 28, 22), (right - 6, 22)];
-        root.draw(&PathElement::new(line, color.stroke_width(3)))?;
-        right -= 44;
-    }
-    let (_, below) = root.split_vertically(44);
-    for (area, panel) in below.split_evenly((rows, columns)).iter().zip(panels) {
-        let area = area.titled(&panel.title, ("sans-serif", 16))?;
-        let labels = if panel.axes.is_some() { 46 } else { 4 };
-        let (width, height) = area.dim_in_pixel();
-        let inner = (width - labels - 20, height - labels - 20);
-        let [x, y] = panel.ranges(inner);
-        let mut builder = ChartBuilder::on(&area);
-        builder
-            .margin(10)
-            .x_label_area_size(labels)
-            .y_label_area_size(labels);
-        if panel.logarithmic {
-            let x = (x.0..x.1).log_scale();
-            let y = (y.0..y.1).log_scale();
-            fill(builder.build_cartesian_2d(x, y)?, panel, power)?;
-        } else {
-            fill(
-                builder.build_cartesian_2d(x.0..x.1, y.0..y.1)?,
-                panel,
-                plain,
-            )?;
+    {
+        let root = SVGBackend::with_string(&mut svg, whole).into_drawing_area();
+        root.fill(&WHITE)?;
+        root.draw(&Text::new(title.to_string(), (16, 12), ("sans-serif", 20)))?;
+        let mut right = whole.0 as i32 - 16;
+        for (name, color) in legend.iter().rev() {
+            let style = ("sans-serif", 15).into_font().color(color);
+            right -= root.estimate_text_size(name, &style)?.0 as i32 + 8;
+            root.draw(&Text::new(name.clone(), (right, 15), style))?;
+            let line = vec![(right - 28, 22), (right - 6, 22)];
+            root.draw(&PathElement::new(line, color.stroke_width(3)))?;
+            right -= 44;
         }
+        let (_, below) = root.split_vertically(44);
+        for (area, panel) in below.split_evenly((rows, columns)).iter().zip(panels) {
+            let area = area.titled(&panel.title, ("sans-serif", 16))?;
+            let [labels, side] = if panel.axes.is_some() {
+                [46, 58]
+            } else {
+                [4; 2]
+            };
+            let (width, height) = area.dim_in_pixel();
+            let inner = (width - side - 20, height - labels - 20);
+            let [x, y] = panel.ranges(inner);
+            let mut builder = ChartBuilder::on(&area);
+            builder
+                .margin(10)
+                .x_label_area_size(labels)
+                .y_label_area_size(side);
+            if panel.logarithmic {
+                let x = (x.0..x.1).log_scale();
+                let y = (y.0..y.1).log_scale();
+                fill(builder.build_cartesian_2d(x, y)?, panel, power)?;
+            } else {
+                fill(
+                    builder.build_cartesian_2d(x.0..x.1, y.0..y.1)?,
+                    panel,
+                    plain,
+                )?;
+            }
+        }
+        root.present()?;
     }
-    root.present()?;
-    Ok(())
+    Ok(svg)
 }
 
 fn plain(value: &f64) -> String {

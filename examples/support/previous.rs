@@ -1,14 +1,12 @@
 //! The method that the thesis compares with (its § 5.3.1): constant panels, the boundary integral
 //! equation (5.6) with its sign corrected, and every integral by the value at the panel's centroid.
 
-use faer::Mat;
-use faer::linalg::solvers::{PartialPivLu, Solve};
 use rapier3d_immersed::geometry::Surface;
-use rapier3d_immersed::rapier3d::na::{Matrix6, Vector3};
+use rapier3d_immersed::rapier3d::na::{DMatrix, Matrix6, Vector3};
 use std::f64::consts::PI;
 
-/// The 6×6 added mass about the origin.
-pub fn added_mass(surface: &Surface) -> Matrix6<f64> {
+/// The 6×6 added mass about the origin; `None` if the equations are singular.
+pub fn added_mass(surface: &Surface) -> Option<Matrix6<f64>> {
     let panels: Vec<_> = surface
         .corners()
         .map(|[a, b, c]| {
@@ -32,8 +30,8 @@ pub fn added_mass(surface: &Surface) -> Matrix6<f64> {
         );
         panels[j].2 * d.dot(&panels[j].1) / (4.0 * PI * r.powi(3))
     };
-    let matrix = Mat::from_fn(n, n, |i, j| if i == j { 0.5 } else { -kernel(i, j) });
-    let right = Mat::from_fn(n, 6, |i, k| {
+    let matrix = DMatrix::from_fn(n, n, |i, j| if i == j { 0.5 } else { -kernel(i, j) });
+    let right = DMatrix::from_fn(n, 6, |i, k| {
         (0..n)
             .map(|j| {
                 let potential = if i == j {
@@ -46,11 +44,11 @@ pub fn added_mass(surface: &Surface) -> Matrix6<f64> {
             })
             .sum()
     });
-    let potential = PartialPivLu::new(matrix.as_ref()).solve(&right);
+    let potential = matrix.lu().solve(&right)?;
     let m = Matrix6::from_fn(|j, k| {
         -(0..n)
             .map(|i| potential[(i, j)] * normal_velocity(i, k) * panels[i].2)
             .sum::<f64>()
     });
-    (m + m.transpose()) / 2.0
+    Some((m + m.transpose()) / 2.0)
 }

@@ -1,0 +1,134 @@
+//! The cases, section by section.
+
+mod added_mass;
+mod discs;
+mod drag;
+mod energy;
+mod falling_plate;
+mod falls;
+mod kirchhoff;
+mod papers;
+mod plates;
+pub mod report;
+pub mod runner;
+mod seed;
+mod thesis;
+
+use report::{Row, Section};
+
+/// How much to compute.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effort {
+    /// Everything: minutes.
+    Full,
+    /// Fewer and shorter runs, for tests: seconds.
+    Quick,
+}
+
+impl Effort {
+    /// One of two values.
+    pub fn choose<T>(self, full: T, quick: T) -> T {
+        match self {
+            Self::Full => full,
+            Self::Quick => quick,
+        }
+    }
+}
+
+/// What can go wrong in a section: the library's errors, and those of drawing.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// The rows of a section, and its pictures: file names and SVG.
+pub type Computed = (Vec<Row>, Vec<(String, String)>);
+
+/// Called with the share of a section that is done, 0 to 1.
+pub type Progress<'a> = &'a dyn Fn(f64);
+
+/// The sections, in the order of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum SectionName {
+    /// Plates in water that tumble, go astray and flutter
+    Plates,
+    /// The map of falling discs
+    Discs,
+    /// Paper circles and hexagons in air
+    Papers,
+    /// A maple seed that spins
+    Seed,
+    /// Drag of spheres and broadside discs over the Reynolds number
+    Drag,
+    /// Added mass against closed forms and tables
+    AddedMass,
+    /// Invariants of an ideal fluid, and a pendulum in it
+    Kirchhoff,
+    /// Energy in a fluid at rest
+    Energy,
+    /// The quasi-steady plate in two dimensions
+    FallingPlate,
+    /// Figures 5.4 and 5.13 of the thesis
+    Thesis,
+}
+
+impl SectionName {
+    /// Those asked for, each once and in the table's order; all if none is.
+    pub fn chosen(only: &[Self]) -> Vec<Self> {
+        let all = <Self as clap::ValueEnum>::value_variants().iter().copied();
+        all.filter(|name| only.is_empty() || only.contains(name))
+            .collect()
+    }
+
+    /// As on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plates => "plates",
+            Self::Discs => "discs",
+            Self::Papers => "papers",
+            Self::Seed => "seed",
+            Self::Drag => "drag",
+            Self::AddedMass => "added-mass",
+            Self::Kirchhoff => "kirchhoff",
+            Self::Energy => "energy",
+            Self::FallingPlate => "falling-plate",
+            Self::Thesis => "thesis",
+        }
+    }
+
+    /// What it is about.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Plates => "plates in water",
+            Self::Discs => "the map of discs",
+            Self::Papers => "paper in air",
+            Self::Seed => "maple seed",
+            Self::Drag => "drag of spheres and discs",
+            Self::AddedMass => "added mass",
+            Self::Kirchhoff => "ideal fluid",
+            Self::Energy => "energy in still fluid",
+            Self::FallingPlate => "plate in two dimensions",
+            Self::Thesis => "figures of the thesis",
+        }
+    }
+
+    /// # Errors
+    /// What the library or the drawing says.
+    pub fn compute(self, effort: Effort, progress: Progress) -> Result<Section, Failure> {
+        let (rows, pictures) = match self {
+            Self::Plates => plates::compute(effort, progress)?,
+            Self::Discs => discs::compute(effort, progress)?,
+            Self::Papers => papers::compute(effort, progress)?,
+            Self::Seed => seed::compute(effort, progress)?,
+            Self::Drag => drag::compute(effort, progress)?,
+            Self::AddedMass => added_mass::compute(effort, progress)?,
+            Self::Kirchhoff => kirchhoff::compute(effort, progress)?,
+            Self::Energy => energy::compute(effort, progress)?,
+            Self::FallingPlate => falling_plate::compute(effort, progress)?,
+            Self::Thesis => thesis::compute(effort, progress)?,
+        };
+        Ok(Section {
+            name: self.name(),
+            title: self.title(),
+            rows,
+            pictures,
+        })
+    }
+}
