@@ -1,7 +1,7 @@
 //! Synthesized falls played by rapier's bodies (thesis chapter 3), with collisions.
 
 use super::immersion::Immersion;
-use super::played::{Slot, Step};
+use super::played::{Slot, Step, touches};
 use super::player::MotionPlayer;
 use super::step::RapierSets;
 use crate::Error;
@@ -43,6 +43,15 @@ pub struct MotionPlayers {
     points: Vec<Vector>,
     samples: Vec<FlowSample>,
     finished: Vec<RigidBodyHandle>,
+    touching: Touching,
+}
+
+/// Which players touch another body.
+#[derive(Clone, Default)]
+struct Touching {
+    /// By slot, unless the world is `crowded`.
+    slots: Vec<bool>,
+    crowded: bool,
 }
 
 impl MotionPlayers {
@@ -148,6 +157,7 @@ impl MotionPlayers {
                 .resize(self.points.len(), FlowSample::default());
             flow.sample(&self.points, self.time, &mut self.samples);
         }
+        self.find_touching(sets);
         self.finished.clear();
         for (index, slot) in self.slots.iter_mut().enumerate() {
             let Some(body) = sets.bodies.get_mut(slot.handle) else {
@@ -159,7 +169,12 @@ impl MotionPlayers {
             }
             let wind = step.angle.map(|_| self.samples[index].velocity);
             let was_taken = slot.taken;
-            if !slot.advance(body, sets.narrow_phase, wind, &step) {
+            let touching = if self.touching.crowded {
+                touches(body, sets.narrow_phase)
+            } else {
+                self.touching.slots[index]
+            };
+            if !slot.advance(body, touching, wind, &step) {
                 self.finished.push(slot.handle);
             } else if slot.taken != was_taken
                 && let Some(immersion) = &mut immersion
@@ -173,5 +188,34 @@ impl MotionPlayers {
         }
         self.finished = finished;
         self.time += f64::from(dt);
+    }
+
+    /// Marks the players that touch something where the world's pairs are few: to ask for a body's pairs
+    /// one by one takes three look-ups in memory that nothing else in the step needs.
+    fn find_touching(&mut self, sets: &RapierSets) {
+        let Touching { slots, crowded } = &mut self.touching;
+        slots.clear();
+        slots.resize(self.slots.len(), false);
+        // A touching pair costs some four times what a mere pair does.
+        let mut left = self.slots.len();
+        for pair in sets.narrow_phase.contact_pairs() {
+            let active = pair.has_any_active_contact();
+            let cost = if active { 4 } else { 1 };
+            *crowded = left < cost;
+            if *crowded {
+                return;
+            }
+            left -= cost;
+            if !active {
+                continue;
+            }
+            for collider in [pair.collider1, pair.collider2] {
+                let parent = sets.colliders.get(collider).and_then(|c| c.parent());
+                if let Some(slot) = parent.and_then(|body| self.lookup.get(&body)) {
+                    slots[*slot as usize] = true;
+                }
+            }
+        }
+        *crowded = false;
     }
 }
