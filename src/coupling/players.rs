@@ -12,6 +12,10 @@ use rapier3d::math::{Real, Vector};
 use std::collections::HashMap;
 use std::sync::Arc;
 
+/// Players whose keys are asked for at once. Players are at different times of different paths, whose keys
+/// rapier's step has pushed out of the cache: one by one, each would wait 60 ns for its own.
+const GROUP: usize = 16;
+
 /// What a played body does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Playing {
@@ -159,27 +163,31 @@ impl MotionPlayers {
         }
         self.find_touching(sets);
         self.finished.clear();
-        for (index, slot) in self.slots.iter_mut().enumerate() {
-            let Some(body) = sets.bodies.get_mut(slot.handle) else {
-                self.finished.push(slot.handle);
-                continue;
-            };
-            if !slot.watched {
-                slot.watch(body, sets.colliders);
-            }
-            let wind = step.angle.map(|_| self.samples[index].velocity);
-            let was_taken = slot.taken;
-            let touching = if self.touching.crowded {
-                touches(body, sets.narrow_phase)
-            } else {
-                self.touching.slots[index]
-            };
-            if !slot.advance(body, touching, wind, &step) {
-                self.finished.push(slot.handle);
-            } else if slot.taken != was_taken
-                && let Some(immersion) = &mut immersion
-            {
-                immersion.set_body_enabled(slot.handle, !slot.taken);
+        for (number, group) in self.slots.chunks_mut(GROUP).enumerate() {
+            bring(group, dt);
+            for (place, slot) in group.iter_mut().enumerate() {
+                let index = number * GROUP + place;
+                let Some(body) = sets.bodies.get_mut(slot.handle) else {
+                    self.finished.push(slot.handle);
+                    continue;
+                };
+                if !slot.watched {
+                    slot.watch(body, sets.colliders);
+                }
+                let wind = step.angle.map(|_| self.samples[index].velocity);
+                let was_taken = slot.taken;
+                let touching = if self.touching.crowded {
+                    touches(body, sets.narrow_phase)
+                } else {
+                    self.touching.slots[index]
+                };
+                if !slot.advance(body, touching, wind, &step) {
+                    self.finished.push(slot.handle);
+                } else if slot.taken != was_taken
+                    && let Some(immersion) = &mut immersion
+                {
+                    immersion.set_body_enabled(slot.handle, !slot.taken);
+                }
             }
         }
         let finished = std::mem::take(&mut self.finished);
@@ -218,4 +226,16 @@ impl MotionPlayers {
         }
         *crowded = false;
     }
+}
+
+/// Reads a little of the keys that a group's step is about to need, so that the machine fetches them all
+/// at the same time.
+#[inline]
+fn bring(group: &[Slot], dt: Real) {
+    let mut sum = 0.0;
+    for slot in group {
+        let [a, b] = slot.path.keys_around(slot.clock + dt);
+        sum += a.position.x + b.attitude.w;
+    }
+    std::hint::black_box(sum);
 }
