@@ -94,18 +94,18 @@ impl Slot {
         }
     }
 
-    /// Moves the body for a step; whether it goes on being played.
+    /// Moves the body, which may be `touching` another, for a step; whether it goes on being played.
     #[inline]
     pub fn advance(
         &mut self,
         body: &mut RigidBody,
-        narrow_phase: &NarrowPhase,
+        touching: bool,
         wind: Option<Vector>,
         step: &Step,
     ) -> bool {
         match self.drive {
             Drive::Kinematic if body.body_type() == RigidBodyType::KinematicPositionBased => {
-                if self.at_contact != AtContact::Ignore && touches(body, narrow_phase) {
+                if self.at_contact != AtContact::Ignore && touching {
                     self.let_go(body, step.dt);
                     return self.at_contact != AtContact::HandOver;
                 }
@@ -117,7 +117,7 @@ impl Slot {
                 !done
             }
             Drive::Kinematic if self.waiting && body.is_dynamic() => {
-                self.free = match touches(body, narrow_phase) {
+                self.free = match touching {
                     true => 0.0,
                     false => self.free + step.dt,
                 };
@@ -132,7 +132,7 @@ impl Slot {
                 true
             }
             Drive::Velocity { compliance } if body.is_dynamic() => {
-                self.drive(body, narrow_phase, compliance, wind, step)
+                self.drive(body, touching, compliance, wind, step)
             }
             _ => true,
         }
@@ -191,13 +191,13 @@ impl Slot {
     fn drive(
         &mut self,
         body: &mut RigidBody,
-        narrow_phase: &NarrowPhase,
+        touching: bool,
         compliance: Real,
         wind: Option<Vector>,
         step: &Step,
     ) -> bool {
         let dt = step.dt;
-        let touching = self.at_contact != AtContact::Ignore && touches(body, narrow_phase);
+        let touching = touching && self.at_contact != AtContact::Ignore;
         self.free = if touching { 0.0 } else { self.free + dt };
         let com = *body.position() * body.local_center_of_mass();
         match self.at_contact {
@@ -287,7 +287,7 @@ fn leaning(lean: Option<Rotation>, rotation: Rotation) -> Rotation {
 
 /// Whether a body touches another.
 #[inline]
-fn touches(body: &RigidBody, narrow_phase: &NarrowPhase) -> bool {
+pub(super) fn touches(body: &RigidBody, narrow_phase: &NarrowPhase) -> bool {
     body.colliders().iter().any(|collider| {
         narrow_phase
             .contact_pairs_with(*collider)

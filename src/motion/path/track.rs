@@ -170,13 +170,26 @@ impl MotionPath {
         self.interval * (self.keys.len() - 1) as Real
     }
 
+    /// Index of the key before a time, at most the last but one, and the share of the interval since.
+    #[inline]
+    fn locate(&self, time: Real) -> (usize, Real) {
+        let place = (time * self.per_interval).clamp(0.0, (self.keys.len() - 1) as Real);
+        let index = (place as usize).min(self.keys.len() - 2);
+        (index, place - index as Real)
+    }
+
+    /// The keys between which a time lies, s.
+    #[inline]
+    pub(crate) fn keys_around(&self, time: Real) -> [&Key; 2] {
+        let (index, _) = self.locate(time);
+        [&self.keys[index], &self.keys[index + 1]]
+    }
+
     /// The moment at a time, s, clamped to the path: cubic between positions, so that the velocity is
     /// their derivative, and linear (normalised) between attitudes.
     #[inline]
     pub fn at(&self, time: Real) -> Key {
-        let place = (time * self.per_interval).clamp(0.0, (self.keys.len() - 1) as Real);
-        let index = (place as usize).min(self.keys.len() - 2);
-        let s = place - index as Real;
+        let (index, s) = self.locate(time);
         let (a, b) = (&self.keys[index], &self.keys[index + 1]);
         let h = self.interval;
         let step = b.position - a.position;
