@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Players whose keys are asked for at once. Players are at different times of different paths, whose keys
-/// rapier's step has pushed out of the cache: one by one, each would wait 60 ns for its own.
+/// rapier's step has pushed out of the cache: one by one, each would wait for its own.
 const GROUP: usize = 16;
 
 /// What a played body does.
