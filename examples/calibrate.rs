@@ -81,8 +81,9 @@ struct Objective {
 }
 
 struct Seen {
-    /// Cost by place, read from the log or computed.
-    costs: HashMap<Vec<u64>, f64>,
+    /// Costs that the log knows, by the places as the log writes them: the shortest digits that tell
+    /// numbers apart.
+    costs: HashMap<String, f64>,
     log: File,
     best: (f64, Vec<f64>),
     progress: ProgressBar,
@@ -91,7 +92,11 @@ struct Seen {
 impl Objective {
     fn cost(&self, places: &[f64]) -> f64 {
         let mut seen = self.seen.borrow_mut();
-        let key: Vec<u64> = places.iter().map(|x| x.to_bits()).collect();
+        let key = places
+            .iter()
+            .map(f64::to_string)
+            .collect::<Vec<_>>()
+            .join(" ");
         let known = seen.costs.get(&key).copied();
         let cost = known.unwrap_or_else(|| {
             let law = ViscousLaw::Physical(law_at(places));
@@ -102,8 +107,8 @@ impl Objective {
             cost + 2.0 * beyond.sum::<f64>()
         });
         if known.is_none() {
-            let line = serde_json::to_string(&(places, cost)).expect("finite numbers");
-            writeln!(seen.log, "{line}").unwrap_or_else(|e| cli::cannot_write(Path::new("log"), e));
+            writeln!(seen.log, "{key} cost {cost} ;")
+                .unwrap_or_else(|error| cli::cannot_write(Path::new("--output"), error));
         }
         if cost < seen.best.0 {
             seen.best = (cost, places.to_vec());
@@ -172,7 +177,7 @@ fn search(arguments: &Arguments, all: &Fidelity, start: &PhysicalLaw) -> Physica
     }
     let fidelity = fidelity.thinned(arguments.stride as usize);
     let evaluations = arguments.generations as u64 * arguments.population + 1;
-    let (log, costs) = open_log(&arguments.output.join("evaluations.jsonl"));
+    let (log, costs) = open_log(&arguments.output.join("evaluations.txt"));
     let objective = Objective {
         fidelity,
         effort: Effort {
@@ -214,16 +219,23 @@ fn search(arguments: &Arguments, all: &Fidelity, start: &PhysicalLaw) -> Physica
     law
 }
 
-/// The log, to be appended to, and what is in it. A last line that was cut off is ignored.
-fn open_log(path: &Path) -> (File, HashMap<Vec<u64>, f64>) {
+/// The log, to be appended to, and what is in it. Lines that are not whole (the last one, of a search that
+/// was killed) are dropped.
+fn open_log(path: &Path) -> (File, HashMap<String, f64>) {
     let text = read_to_string(path).unwrap_or_default();
-    let lines = text.lines().filter_map(|line| {
-        let (places, cost): (Vec<f64>, f64) = serde_json::from_str(line).ok()?;
-        Some((places.iter().map(|x| x.to_bits()).collect(), cost))
-    });
-    let costs = lines.collect();
-    // Rewritten whole, so that a line that was cut off does not spoil the next.
-    cli::write(path, &text);
+    let entry = |line: &str| {
+        let (key, cost) = line.strip_suffix(" ;")?.split_once(" cost ")?;
+        Some((key.to_string(), cost.parse().ok()?))
+    };
+    let (mut whole, mut costs) = (String::new(), HashMap::new());
+    for line in text.lines() {
+        if let Some((key, cost)) = entry(line) {
+            costs.insert(key, cost);
+            whole.push_str(line);
+            whole.push('\n');
+        }
+    }
+    cli::write(path, whole);
     let log = OpenOptions::new().append(true).open(path);
     (
         log.unwrap_or_else(|error| cli::cannot_write(path, error)),

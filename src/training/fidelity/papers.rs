@@ -168,26 +168,23 @@ impl TumblingShare {
         ];
         let shares = SHARES.iter();
         shares
-            .map(|(i_star, share)| {
-                Ok(Self {
-                    share: *share,
-                    ..Self::new(*i_star)?
-                })
-            })
+            .map(|(i_star, share)| Self::new(*i_star, *share))
             .collect()
     }
 
-    /// Circles of an I* of which nothing was measured (the share is NaN).
+    /// Circles of this I*, of which `share` tumbled.
     ///
     /// # Errors
-    /// [`Error::InvalidParameter`] if `i_star` is not positive and finite.
-    pub fn new(i_star: f64) -> Result<Self, Error> {
+    /// [`Error::InvalidParameter`] if `i_star` is not positive and finite, [`Error::OutOfRange`] if
+    /// `share` is none.
+    pub fn new(i_star: f64, share: f64) -> Result<Self, Error> {
         Error::check_positive("i_star", i_star)?;
+        Error::check_range("share", share, 0.0, 1.0)?;
         // I* = π σ/(64 ρ_f d)
         let radius = PI * GRAMMAGE / (128.0 * f64::from(AIR.0) * i_star);
         Ok(Self {
             i_star,
-            share: f64::NAN,
+            share,
             paper: Paper::new(Cut::Circle, radius)?,
         })
     }
