@@ -104,7 +104,10 @@ fn before_and_after_allocate_nothing_in_flight() {
     let leaves: Vec<_> = (0..100)
         .map(|i| {
             let at = Vector::new(i as Real, 50.0, 0.0);
-            let body = RigidBodyBuilder::dynamic().translation(at).rotation(at);
+            // So far apart that none meet: a contact changes the solver's mass, which rapier lists.
+            let body = RigidBodyBuilder::dynamic()
+                .translation(at * 10.0)
+                .rotation(at);
             world
                 .insert(
                     body,

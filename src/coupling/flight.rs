@@ -94,10 +94,10 @@ pub(super) struct Integrated {
     pub linear: Row,
     /// w = ωL, m/s, and the number of substeps in the last step.
     pub angular: Row,
-    /// dν/dt of the last substep, m/s².
+    /// Acceleration over the last substep, u̇ + ω × u and ẇ, m/s² …
     pub linear_rate: Row,
     pub angular_rate: Row,
-    /// d²ν/dt² between the last two substeps, m/s³.
+    /// … and its change between the last two, m/s³.
     pub linear_trend: Row,
     pub angular_trend: Row,
 }

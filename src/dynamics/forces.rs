@@ -101,7 +101,7 @@ pub(crate) struct Instant {
     pub attitude: UnitQuaternion<f64>,
     /// u and w = ωL relative to the fluid, plate axes.
     pub velocity: Twist<f64>,
-    /// dν/dt of the last substep, plate axes.
+    /// Acceleration over the last substep, u̇ + ω × u and ẇ, plate axes.
     pub rate: Twist<f64>,
     /// Gravity that the body feels, m/s², world axes.
     pub gravity: Vector3<f64>,
@@ -173,7 +173,11 @@ impl BodyConstants {
             linear: mass.m11 * v.linear + mass.m12 * v.angular - v.linear * self.inertia.dry_mass,
             angular: mass.m21 * v.linear + mass.m22 * v.angular - dry * v.angular,
         };
-        let resisted = fluid(rate);
+        let turned = cross(&v.angular, &v.linear) * self.inertia.per_length;
+        let resisted = fluid(&Twist {
+            linear: rate.linear - turned,
+            angular: rate.angular,
+        });
         let carried = fluid(v);
         let spinning = mass.m22 * v.angular - dry * v.angular;
         let felt = self.inertia.munk * self.inertia.per_length;

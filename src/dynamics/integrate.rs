@@ -17,7 +17,9 @@
 //!
 //! One force evaluation and one 6×6 solve per substep; second order. The velocity at the middle is
 //! extrapolated along a parabola through the last two substeps, which costs nothing and halves to
-//! quarters the error; and of N the body's own momentum is left to ω× acting on u (see
+//! quarters the error. What is extrapolated is the acceleration felt in plate axes, u̇ + ω × u: that
+//! the axes turn under the velocity is known without history, and tumbling plates need a third fewer
+//! substeps for it. And of N the body's own momentum is left to ω× acting on u (see
 //! [`kirchhoff`](super::kirchhoff)), which keeps a heavy body's frozen momentum from turning it, for
 //! another factor of two to five.
 //!
@@ -28,11 +30,10 @@
 //!
 //! | design | evaluations | leaf in air | steel plate in water | foam plate in water |
 //! |---|---|---|---|---|
-//! | **linearly implicit midpoint** | 1 | 7e-3, 3e-4, 1e-5 | 6e-3, 7e-4, 1e-4 | .14, .05, 1e-2 |
-//! | … extrapolated along a line, all momentum in p× | 1 | 3e-2, 4e-3, 3e-4 | 4e-2, 3e-3, 2e-4 | .16, .05, 3e-3 |
-//! | N frozen twice | 2 | 5e-3, 3e-4, 2e-5 | 7e-3, 5e-4, 3e-5 | .16, .02, 1e-3 |
-//! | linearly implicit Euler | 1 | .03, .01, 3e-3 | .15, .04, .01 | .07, .02, .01 |
-//! | Runge–Kutta 4 | 4 | 2e-4, 3e-7, 4e-9 | 5e-4, 4e-5, 1e-5 | blows up, blows up, 4e-3 |
+//! | **linearly implicit midpoint** | 1 | 4e-3, 3e-4, 2e-5 | .03, 2e-3, 2e-4 | .22, .04, .02 |
+//! | N frozen twice | 2 | 4e-3, 3e-4, 2e-5 | 5e-3, 5e-4, 3e-5 | .13, .04, 5e-3 |
+//! | linearly implicit Euler | 1 | .02, 8e-3, 2e-3 | .11, .03, 9e-3 | .07, .04, .01 |
+//! | Runge–Kutta 4 | 4 | 3e-5, 2e-7, 1e-9 | 3e-4, 2e-5, 1e-5 | blows up, blows up, .05 |
 //!
 //! Runge–Kutta is the most accurate where it is stable, but it is not where a light body drags a
 //! heavy fluid along; implicit Euler is stable but damps flutter away. The midpoint scheme is stable
@@ -42,16 +43,21 @@
 //!
 //! A regime is more sensitive than a path. At four times the step of the measured falls
 //! ([`fidelity`](crate::training::fidelity); plates at 60 steps/s), against their own result at the fine
-//! step (tumbling plate 15.7, 12.4 cm/s, 14.9 rad/s; 92.7 % of the discs):
+//! step (tumbling plate 15.8, 12.0 cm/s, 15.1 rad/s; fluttering plate 8.9 cm/s; 92.0 % of the discs):
 //!
-//! | `max_travel` | plate 1/8: drift, descent, spin | 1/14: descent | discs | ns per body-step |
+//! | `max_travel`, `max_turn` | plate 1/8: drift, descent, spin | 1/14: descent | discs | substeps |
 //! |---|---|---|---|---|
-//! | 0.6 | .8, 5.4, 0.2 (flutters) | 5.3 (8.9) | 77.3 % | 163 |
-//! | 0.25 | 11.8, 12.1, 11.2 | 7.4 | 90.0 % | 205 |
-//! | **0.15** | 14.2, 12.2, 13.6 | 8.1 | 91.3 % | 220 |
-//! | 0.07 | 15.7, 12.2, 15.0 | 8.9 | 91.7 % | 300 |
+//! | 0.6, 0.6 | 0.9, 8.8, 0.7 (flutters) | 5.0 | 77.1 % | 1.2 |
+//! | 0.4, 0.2 | 15.9, 11.7, 15.1 | 8.9 | 89.2 % | 2.0 |
+//! | **0.3, 0.2** | 15.8, 11.9, 15.1 | 8.9 | 91.8 % | 2.2 |
+//! | 0.3, 0.6 | 13.0, 12.7, 12.2 | 7.7 | 89.9 % | |
+//! | 0.15, 0.1 | 15.8, 12.1, 15.1 | 8.9 | 91.8 % | 4.0 |
 //!
-//! (The last column is what `before_step` takes for 10 000 leaves at 60 steps/s, least of 25 rounds.)
+//! (The last column is the mean over 10 000 leaves that fall through air at 60 steps/s; each substep
+//! takes some 25 ns of each leaf's step.) At the ends of its swings a plate is slow and the flow around
+//! it changes fastest, so it is the turning of the body's *course* that `max_turn` limits there: without
+//! that the fluttering plate needs twice the substeps. Under 0.3, 0.2 with u̇ itself extrapolated the
+//! chaotic plate 1/11 flutters.
 
 use super::kirchhoff::{Twist, choose, cross};
 use crate::body::InertiaConstants;
@@ -66,10 +72,11 @@ use rapier3d::na::{Quaternion, Vector3};
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct Integrator {
-    /// A substep turns the body by at most this angle, rad (default 0.6).
+    /// A substep turns the body, and its course through the fluid, by at most this angle, rad (default
+    /// 0.2).
     pub max_turn: f64,
-    /// A substep moves the body by at most this many chords (default 0.15; at 0.6 the step costs a third
-    /// less, but plates at 60 steps/s flutter that should tumble: see below).
+    /// A substep moves the body by at most this many chords (default 0.3; at 0.6 the step costs less, but
+    /// plates at 60 steps/s flutter that should tumble: see below).
     pub max_travel: f64,
     /// Never more substeps than this in one step (default 16): accuracy gives way, stability does
     /// not depend on it.
@@ -83,8 +90,8 @@ pub struct Integrator {
 impl Default for Integrator {
     fn default() -> Self {
         Self {
-            max_turn: 0.6,
-            max_travel: 0.15,
+            max_turn: 0.2,
+            max_travel: 0.3,
             max_substeps: 16,
             iterations: 1,
         }
@@ -100,9 +107,9 @@ pub(crate) struct Motion<T> {
     pub displacement: Vector3<T>,
     /// u and w = ωL.
     pub velocity: Twist<T>,
-    /// dν/dt over the last substep; zero where there is no history.
+    /// Acceleration over the last substep, u̇ + ω × u and ẇ; zero where there is no history.
     pub rate: Twist<T>,
-    /// d²ν/dt² between the last two substeps.
+    /// Its change per second between the last two substeps.
     pub trend: Twist<T>,
     /// Length of the last substep, s; zero where there is no history.
     pub last: T,
@@ -195,6 +202,9 @@ impl<T: Scalar> Evaluate<T> for Inviscid {
     }
 }
 
+/// What moves less than this many chords in a step may change its course as it likes.
+const IDLE: f64 = 0.02;
+
 /// Number of equal substeps for a step of `dt`, as a scalar so that lanes can differ.
 #[inline(always)]
 pub(crate) fn substeps<T: Scalar>(
@@ -204,11 +214,16 @@ pub(crate) fn substeps<T: Scalar>(
     dt: T,
     integrator: &Integrator,
 ) -> T {
+    let half = dt * dt.lit(0.5);
+    let speed = norm(&motion.velocity.linear);
     let spin = norm(&motion.velocity.angular) * inertia.per_length;
+    // The course turns too: at the ends of a swing the body is slow, and the flow changes fast.
+    let felt = norm(&motion.rate.linear);
+    let course = speed + felt * half + inertia.chord * dt.lit(IDLE) / dt;
+    let turns = spin.larger(felt / course) * dt.lit(1.0 / integrator.max_turn);
     // A body that starts from rest will have moved by then.
-    let speed = norm(&motion.velocity.linear) + norm(&load.force) * dt * dt.lit(0.5);
-    let turns = spin * dt.lit(1.0 / integrator.max_turn);
-    let travels = speed / (inertia.chord * dt.lit(integrator.max_travel));
+    let way = speed + norm(&load.force) * half;
+    let travels = way / (inertia.chord * dt.lit(integrator.max_travel));
     let wanted = dt * turns.larger(travels);
     let most = dt.lit(f64::from(integrator.max_substeps.max(1)));
     wanted.ceiling().larger(dt.lit(1.0)).smaller(most)
@@ -240,6 +255,15 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
         .rate
         .add_scaled(&motion.trend, half * (motion.last + half * h));
     let mut middle = start.add_scaled(&ahead, half * h);
+    // The axes turn under the velocity: u̇ = a − ω × u, taken halfway to the middle.
+    let turns = half * h * inertia.per_length;
+    let turned_away = cross(&start.angular, &start.linear) * turns;
+    let way = Twist {
+        linear: middle.linear - turned_away,
+        angular: middle.angular,
+    };
+    let halfway = start.add_scaled(&way, one).scaled(half);
+    middle.linear -= cross(&halfway.angular, &halfway.linear) * turns;
     let mut delta = Twist::zero(h);
     for _ in 0..iterations.max(law.least_iterations()) {
         let half_turn = middle.angular * (half * h * inertia.per_length);
@@ -286,7 +310,9 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     let done = h.lit(1e-12);
     let per_h = one / h.larger(done);
     let old = motion.rate;
-    motion.rate = old.where_less(h, done, &delta.scaled(per_h));
+    let mut rate = delta.scaled(per_h);
+    rate.linear += cross(&middle.angular, &middle.linear) * inertia.per_length;
+    motion.rate = old.where_less(h, done, &rate);
     let per = (one + one) / (motion.last + h);
     let per = zero.where_less(motion.last, done, per);
     let trend = motion.rate.add_scaled(&old, -one).scaled(per);
