@@ -45,7 +45,7 @@ pub(super) struct Flyer {
     pub gravity_scale: f32,
     /// Index of the body's [`Extra`], `NONE` if it has none.
     pub extra: u32,
-    /// Whether a torque or the fluid's vorticity turns the body.
+    /// Whether a user's torque turns the body.
     pub turned: bool,
     /// What rapier has: attitude (plate axes to world) and velocities.
     pub rapier_attitude: Row,

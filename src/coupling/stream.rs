@@ -7,7 +7,7 @@ use super::stir::{Stir, Stirring};
 use crate::flow::FlowSample;
 use crate::math::{Row, dispatch};
 use crate::turbulence::LangevinMode;
-use rapier3d::math::{Real, Vector};
+use rapier3d::math::Real;
 
 /// What flows past a flyer. World axes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -99,9 +99,8 @@ impl Immersion {
                 }
             }
         }
-        for ((flyer, stream), sample) in flyers.iter_mut().zip(streams).zip(samples) {
+        for (stream, sample) in streams.iter_mut().zip(samples) {
             stream.go_on(sample);
-            flyer.turned |= sample.vorticity != Vector::ZERO;
         }
     }
 }

@@ -102,9 +102,9 @@ impl<S: Simd> Wing<'_, S> {
             buoyancy,
             buoyancy_arm: Vector3::new(scale.arm_x, scale.arm_y, scale.arm_z),
             fluid_spin: nothing,
-            turning: self.turned_by_buoyancy,
+            turning: self.turned_by_buoyancy || self.bodies.iter().any(|flyer| flyer.turned),
+            spinning: false,
         };
-        load.turning |= self.bodies.iter().any(|flyer| flyer.turned);
         if self.bodies.iter().any(|flyer| flyer.extra != NONE) {
             load.force += self.extra(|e| e.force) * scale.per_mass;
             load.torque = self.extra(|e| e.torque) * scale.per_mass_length;
@@ -122,7 +122,9 @@ impl<S: Simd> Wing<'_, S> {
             };
             stream = flow(|s| s.velocity);
             let change = flow(|s| s.change);
-            if load.turning {
+            let spins = |lane: &usize| streams[*lane].vorticity != Row::default();
+            if self.index.iter().any(spins) {
+                load.spinning = true;
                 load.fluid_spin = flow(|s| s.vorticity) * (scale.length * lit(0.5));
             }
             // In the frame of the fluid: a body that goes on is there already, but the frame itself

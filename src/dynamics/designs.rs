@@ -83,6 +83,7 @@ fn fly(case: &Case, design: Design, h: f64) -> Option<Vector3<f64>> {
         buoyancy_arm: Vector3::zeros(),
         fluid_spin: Vector3::zeros(),
         turning: false,
+        spinning: false,
     };
     let tilt = UnitQuaternion::from_euler_angles(0.3, 0.2, 0.0);
     let attitude = tilt * UnitQuaternion::from_rotation_matrix(&constants.axes);

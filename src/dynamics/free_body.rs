@@ -142,6 +142,7 @@ impl FreeBody {
             buoyancy_arm: c.axes.inverse() * c.buoyancy_arm / c.length,
             fluid_spin: math::to_f64(flow.vorticity) * (0.5 * c.length),
             turning: true,
+            spinning: true,
         };
         let mut motion = Motion {
             attitude: *self.attitude.quaternion(),

@@ -129,8 +129,10 @@ pub(crate) struct Load<T> {
     pub buoyancy_arm: Vector3<T>,
     /// Half the vorticity of the fluid times L, m/s: the spin at which damping rests.
     pub fluid_spin: Vector3<T>,
-    /// Whether torque, buoyancy arm or fluid spin are not zero for some body.
+    /// Whether torque or buoyancy arm are not zero for some body.
     pub turning: bool,
+    /// Whether the fluid's spin is not zero around some body.
+    pub spinning: bool,
 }
 
 /// `q v q*` for a unit quaternion.
@@ -268,7 +270,7 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     for _ in 0..iterations.max(law.least_iterations()) {
         let half_turn = middle.angular * (half * h * inertia.per_length);
         let attitude = turned(&motion.attitude, &(half_turn * half));
-        let fluid_spin = if load.turning {
+        let fluid_spin = if load.spinning {
             rotate_back(&attitude, &load.fluid_spin)
         } else {
             Vector3::repeat(zero)
@@ -283,9 +285,11 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
         };
         if load.turning {
             let buoyancy = rotate_back(&attitude, &load.buoyancy);
-            push.angular = rotate_back(&attitude, &load.torque)
-                + cross(&load.buoyancy_arm, &buoyancy)
-                + terms.damping.component_mul(&fluid_spin);
+            push.angular =
+                rotate_back(&attitude, &load.torque) + cross(&load.buoyancy_arm, &buoyancy);
+        }
+        if load.spinning {
+            push.angular += terms.damping.component_mul(&fluid_spin);
         }
 
         // z: decay per substep of the motion as it is, and of the rotation about the axis where it
@@ -431,6 +435,7 @@ mod tests {
             buoyancy_arm: Vector3::zeros(),
             fluid_spin: Vector3::zeros(),
             turning: false,
+            spinning: false,
         };
         let before = motion.velocity;
         advance::<false, _, _>(inertia, &NotANumber, &load, &mut motion, 0.01, 1.0, 1, 1);
