@@ -151,6 +151,7 @@ impl GridFlow {
 
     /// How far the pattern has been carried, m; wrapped in `f64`, so that it stays precise for as
     /// long as the flow lasts.
+    #[inline(always)]
     fn carried(&self, time: f64) -> Vector {
         if self.drift == Vector::ZERO {
             return Vector::ZERO;

@@ -42,10 +42,61 @@ pub(crate) struct Cell {
     flat: bool,
 }
 
-/// `x` modulo `period`, several times faster than `rem_euclid` (which divides bit by bit).
+/// Whole numbers from here on are not told apart from their neighbours by f64: sums with it round.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
+
+/// `x` as a whole number and a rest within ±½. What is not smaller than 2⁵¹, NaN too, counts as zero.
+#[inline(always)]
+fn split(x: f64) -> (f64, f64) {
+    if x.abs() < WHOLE / 3.0 {
+        let whole = (x + WHOLE) - WHOLE;
+        (whole, x - whole)
+    } else {
+        (0.0, 0.0)
+    }
+}
+
+/// `x` modulo `period`, within ±½ period: several times faster than `rem_euclid` (which divides bit by
+/// bit), and without the library's `floor`.
 #[inline(always)]
 pub(crate) fn wrap(x: f64, period: f64) -> f64 {
-    x - (x / period).floor() * period
+    fraction(x / period) * period
+}
+
+/// `turns` less its whole number, within ±½.
+#[inline(always)]
+pub(super) fn fraction(turns: f64) -> f64 {
+    split(turns).1
+}
+
+/// Cosine and sine of 2π·`turns`, to two units in the last place of f32, in a fraction of the library's
+/// time.
+#[inline(always)]
+pub(super) fn cos_sin(turns: f64) -> [Real; 2] {
+    let (quarters, rest) = split(4.0 * turns);
+    let x = rest * core::f64::consts::FRAC_PI_2;
+    let x2 = x * x;
+    // Taylor series; |x| ≤ π/4.
+    const PER_FACTORIAL: [f64; 8] = [
+        -1.0 / 2.0,
+        -1.0 / 6.0,
+        1.0 / 24.0,
+        1.0 / 120.0,
+        -1.0 / 720.0,
+        -1.0 / 5040.0,
+        1.0 / 40_320.0,
+        1.0 / 362_880.0,
+    ];
+    let series = |[a, b, c, d]: [f64; 4]| 1.0 + x2 * (a + x2 * (b + x2 * (c + x2 * d)));
+    let [a2, a3, a4, a5, a6, a7, a8, a9] = PER_FACTORIAL;
+    let (sine, cosine) = (x * series([a3, a5, a7, a9]), series([a2, a4, a6, a8]));
+    let (cos, sin) = match quarters as i64 & 3 {
+        0 => (cosine, sine),
+        1 => (-sine, cosine),
+        2 => (-cosine, -sine),
+        _ => (sine, -cosine),
+    };
+    [cos as Real, sin as Real]
 }
 
 /// From here on f32 has no fractions of a period left that matter.
@@ -191,6 +242,33 @@ impl Lattice {
             low
         } else {
             lerp(low, lerp(line(c), line(d), w.y), w.z)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn circle_and_period_agree_with_the_library() {
+        for i in -2000..2000 {
+            let turns = f64::from(i) * 0.001_7;
+            let [cos, sin] = cos_sin(turns);
+            let (s, c) = (turns * core::f64::consts::TAU).sin_cos();
+            // The first term left out is (π/4)¹⁰/10! = 2.5e-8, and f32 rounds by 3e-8.
+            assert!((f64::from(cos) - c).abs() < 1.0e-7, "{turns}");
+            assert!((f64::from(sin) - s).abs() < 1.0e-7, "{turns}");
+            let x = f64::from(i) * 0.37;
+            let miss = wrap(x, 2.5) - x.rem_euclid(2.5);
+            assert!(
+                miss.abs() < 1.0e-9 || (miss + 2.5).abs() < 1.0e-9,
+                "{x}: {miss}"
+            );
+        }
+        for wild in [1.0e18, -1.0e300, f64::INFINITY, f64::NAN] {
+            assert_eq!(cos_sin(wild), [1.0, 0.0]);
+            assert_eq!(wrap(wild, 2.5), 0.0);
         }
     }
 }

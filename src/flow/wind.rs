@@ -1,7 +1,7 @@
 //! Gusty wind over ground: a log-law mean and a baked turbulent field carried along by it.
 
 use super::cells::{Cells, Pair};
-use super::lattice::{Lattice, MAX_NODES, wrap};
+use super::lattice::{Lattice, MAX_NODES, cos_sin, fraction};
 use super::{Flow, FlowSample, LogLaw};
 use crate::Error;
 use crate::file::{FileKind, Reader, Writer};
@@ -49,6 +49,10 @@ pub struct SpectralWind {
     per_log: Real,
     per_roughness: Real,
     cap: Real,
+    /// Length of the field along the wind, m, and how many times a second the wind carries it past and
+    /// how many times it turns over.
+    length: f64,
+    per_second: [f64; 2],
 }
 
 const FILE: FileKind = FileKind {
@@ -97,6 +101,7 @@ impl SpectralWind {
         let along = direction.normalize();
         let up = up.normalize();
         let axes = [along, up.cross(along), up];
+        let length = f64::from(lattice.spacing.x) * lattice.dims[0] as f64;
         let row = |i: usize| Vec4::new(axes[0][i], axes[1][i], axes[2][i], 0.0);
         Ok(Self {
             mean,
@@ -117,6 +122,8 @@ impl SpectralWind {
                 HeightLaw::SurfaceLayer => 1.0,
                 HeightLaw::Proportional => Real::INFINITY,
             },
+            length,
+            per_second: [mean_speed / length, 1.0 / evolution_time],
         })
     }
 
@@ -142,16 +149,12 @@ impl SpectralWind {
             .map(|Pair([node, _])| Vector::new(node[0], node[1], node[2]))
     }
 
+    #[inline(always)]
     fn instant(&self, time: f64) -> Instant {
-        let period = f64::from(self.lattice.spacing.x) * self.lattice.dims[0] as f64;
-        let way = wrap(self.mean_speed * time, period);
-        let mix = if self.evolution_time.is_finite() {
-            let turns = wrap(time / self.evolution_time, 1.0);
-            let (sin, cos) = (core::f64::consts::TAU * turns).sin_cos();
-            [cos as Real, sin as Real]
-        } else {
-            [1.0, 0.0]
-        };
+        let [passed, turned] = self.per_second;
+        let way = fraction(time * passed) * self.length;
+        // At infinitely slow evolution no turns, unless time is infinite too.
+        let mix = cos_sin(time * turned);
         Instant {
             carried: Vec4::new(way as Real, 0.0, self.ground, 0.0),
             mix,

@@ -54,6 +54,11 @@ fn signed(m: usize, n: usize) -> f64 {
     }
 }
 
+/// Number of a mode's mirror images, for all of which the octant's mode stands.
+fn images(index: [usize; 3]) -> f64 {
+    (0..3).filter(|i| index[*i] > 0).map(|_| 2.0).product()
+}
+
 /// The variances of the modes.
 struct Modes {
     dims: [usize; 3],
@@ -130,14 +135,11 @@ impl Modes {
 
     /// Sum of the modes' variances.
     fn resolved(&self) -> [f64; 3] {
-        let [_, ny, nz] = self.octant;
         let mut sum = [0.0; 3];
         for (number, deviation) in self.deviation.iter().enumerate() {
-            let index = [number / (ny * nz), number / nz % ny, number % nz];
-            // Each of the octant's modes stands for its mirror images.
-            let images = (0..3).filter(|i| index[*i] > 0).count() as i32;
+            let images = images(self.index(number));
             for i in 0..3 {
-                sum[i] += deviation[i].powi(2) * 2.0f64.powi(images);
+                sum[i] += deviation[i].powi(2) * images;
             }
         }
         sum
@@ -147,24 +149,25 @@ impl Modes {
     /// is perpendicular to k' before and multiplied by s after is perpendicular to k. The lowest
     /// modes, which hold nearly all variance, decide.
     fn balance(&self) -> [f64; 3] {
-        let [_, ny, nz] = self.octant;
         let reach = 12.min(self.octant.into_iter().max().unwrap_or(1));
+        let lowest: Vec<([f64; 3], f64)> = (0..self.deviation.len())
+            .map(|number| (self.index(number), self.deviation[number][0]))
+            .filter(|(index, _)| index.iter().all(|i| *i < reach))
+            .map(|(index, deviation)| {
+                let k2 = core::array::from_fn(|i| (index[i] as f64 * self.step[i]).powi(2));
+                (k2, deviation.powi(2) * images(index))
+            })
+            .collect();
         let mut stretch = self.target.map(|target| target.sqrt());
         for _ in 0..24 {
+            let squared = stretch.map(|s| s * s);
             let mut variance = [0.0; 3];
-            for x in 0..self.octant[0].min(reach) {
-                for y in 0..ny.min(reach) {
-                    for z in 0..nz.min(reach) {
-                        let weight = self.deviation[(x * ny + y) * nz + z][0].powi(2);
-                        let images = [x, y, z].iter().filter(|i| **i > 0).count() as i32;
-                        let k = self.stretched([x as f64, y as f64, z as f64], stretch);
-                        let k2: f64 = k.iter().map(|k| k * k).sum();
-                        for i in 0..3 {
-                            let lost = if k2 > 0.0 { k[i] * k[i] / k2 } else { 0.0 };
-                            variance[i] +=
-                                weight * 2.0f64.powi(images) * stretch[i].powi(2) * (1.0 - lost);
-                        }
-                    }
+            for (k2, weight) in &lowest {
+                let k2: [f64; 3] = core::array::from_fn(|i| k2[i] * squared[i]);
+                let sum = k2[0] + k2[1] + k2[2];
+                let per = if sum > 0.0 { 1.0 / sum } else { 0.0 };
+                for i in 0..3 {
+                    variance[i] += weight * squared[i] * (1.0 - k2[i] * per);
                 }
             }
             for i in 0..3 {
@@ -176,8 +179,10 @@ impl Modes {
         stretch
     }
 
-    fn stretched(&self, index: [f64; 3], stretch: [f64; 3]) -> [f64; 3] {
-        core::array::from_fn(|i| index[i] * self.step[i] * stretch[i])
+    /// Where a mode is in the octant.
+    fn index(&self, number: usize) -> [usize; 3] {
+        let [_, ny, nz] = self.octant;
+        [number / (ny * nz), number / nz % ny, number % nz]
     }
 
     /// The three complex fields in the order (y, z, x), x fastest.
@@ -188,39 +193,45 @@ impl Modes {
         let [a, b, c] = &mut fields[..] else {
             unreachable!("three components")
         };
-        // Spectral order (x, y, z), z fastest; one random stream per row makes threads irrelevant.
-        a.par_chunks_mut(nz)
-            .zip(b.par_chunks_mut(nz))
-            .zip(c.par_chunks_mut(nz))
+        // Spectral order (x, y, z), z fastest; one random stream per plane makes threads irrelevant.
+        let plane = ny * nz;
+        let stretch = self.stretch.map(|s| s as f32);
+        let step: [f64; 3] = core::array::from_fn(|i| self.step[i] * self.stretch[i]);
+        a.par_chunks_mut(plane)
+            .zip(b.par_chunks_mut(plane))
+            .zip(c.par_chunks_mut(plane))
             .enumerate()
-            .for_each(|(row, ((a, b), c))| {
-                let (x, y) = (row / ny, row % ny);
+            .for_each(|(x, ((a, b), c))| {
                 let mut random = Pcg64Mcg::seed_from_u64(
-                    params.seed ^ (row as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15),
+                    params.seed ^ (x as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15),
                 );
                 let mut normal = || -> f32 { StandardNormal.sample(&mut random) };
-                let base = (x.min(nx - x) * self.octant[1] + y.min(ny - y)) * self.octant[2];
-                let (kx, ky) = (signed(x, nx), signed(y, ny));
-                for z in 0..nz {
-                    let deviation = self.deviation[base + z.min(nz - z)];
-                    let mut mode = deviation
-                        .map(|deviation| Complex32::new(normal(), normal()) * deviation as f32);
-                    if params.divergence_free {
-                        let k = self.stretched([kx, ky, signed(z, nz)], self.stretch);
-                        let k2: f64 = k.iter().map(|k| k * k).sum();
-                        // In f32, as the modes are; normalized first, so that nothing underflows.
-                        let k = k.map(|k| (k / k2.sqrt()) as f32);
-                        if k2 > 0.0 {
-                            let along = mode[0] * k[0] + mode[1] * k[1] + mode[2] * k[2];
-                            for (mode, k) in mode.iter_mut().zip(k) {
-                                *mode -= along * k;
+                let kx = signed(x, nx) * step[0];
+                for y in 0..ny {
+                    let base = (x.min(nx - x) * self.octant[1] + y.min(ny - y)) * self.octant[2];
+                    let ky = signed(y, ny) * step[1];
+                    for z in 0..nz {
+                        let deviation = self.deviation[base + z.min(nz - z)];
+                        let mut mode = deviation
+                            .map(|deviation| Complex32::new(normal(), normal()) * deviation as f32);
+                        if params.divergence_free {
+                            let k = [kx, ky, signed(z, nz) * step[2]];
+                            let k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
+                            if k2 > 0.0 {
+                                // In f32, as the modes are; normalized first, so that nothing underflows.
+                                let per = k2.sqrt().recip();
+                                let k = k.map(|k| (k * per) as f32);
+                                let along = mode[0] * k[0] + mode[1] * k[1] + mode[2] * k[2];
+                                for (mode, k) in mode.iter_mut().zip(k) {
+                                    *mode -= along * k;
+                                }
+                            }
+                            for (mode, stretch) in mode.iter_mut().zip(stretch) {
+                                *mode *= stretch;
                             }
                         }
-                        for (mode, stretch) in mode.iter_mut().zip(self.stretch) {
-                            *mode *= stretch as f32;
-                        }
+                        [a[y * nz + z], b[y * nz + z], c[y * nz + z]] = mode;
                     }
-                    [a[z], b[z], c[z]] = mode;
                 }
             });
         let mut planner = FftPlanner::new();

@@ -55,14 +55,15 @@ fn slope(power: &[f64], from: usize, to: usize) -> f64 {
 /// Kolmogorov's −5/3 over a decade of harmonics along lines through the field, 2 to 20 of a slice of 256²,
 /// 1 to 10 of a box of 128³: closer to the grid's shortest wave a line misses what the oblique waves
 /// beyond it would add (at harmonic 10 of 128³ 4.5 %). Averaged over seeds, because one field has
-/// only a few independent low modes.
+/// only a few independent low modes: the slopes of seven such averages scatter by .025 (of 24 slices)
+/// and .045 (of 4 boxes), so that 16 boxes have a standard error of .023.
 #[test]
 fn spectrum_falls_with_the_power_minus_five_thirds() {
     for (nodes, divergence_free, seeds, from) in [
         ([256, 256, 1], false, 24u64, 2),
         ([256, 256, 1], true, 24, 2),
-        ([128, 128, 128], false, 4, 1),
-        ([128, 128, 128], true, 4, 1),
+        ([128, 128, 128], false, 16, 1),
+        ([128, 128, 128], true, 16, 1),
     ] {
         let nx: usize = nodes[0];
         let mut power = [vec![0.0; nx / 2], vec![0.0; nx / 2]];
