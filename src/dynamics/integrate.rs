@@ -87,6 +87,17 @@ pub struct Integrator {
     pub iterations: u32,
 }
 
+impl Integrator {
+    /// Substeps of a tenth of a chord with two evaluations each: for falls that are compared, labeled or
+    /// trained with.
+    pub const FINE: Self = Self {
+        max_turn: 0.2,
+        max_travel: 0.1,
+        max_substeps: 64,
+        iterations: 2,
+    };
+}
+
 impl Default for Integrator {
     fn default() -> Self {
         Self {

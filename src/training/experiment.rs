@@ -141,17 +141,12 @@ impl Experiment {
     /// two evaluations each.
     ///
     /// A finer step still changes labels, because chaos makes the boundaries between patterns fuzzy; with
-    /// this one, as many as a milliradian at the release does (of 729: 20 and 20 for the card under the
-    /// thesis's law, 85 and 85 for the leaf under the default law, against steps of 1/1920 s), and of
-    /// the nodes whose neighbours all agree about one in a hundred (1 of 460, 4 of 225).
+    /// this one, as many as a milliradian at the release does (of 729: 16 and 17 for the card under the
+    /// thesis's law, 66 and 58 for the leaf under the default law, against steps of 1/1920 s), and of
+    /// the nodes whose neighbours all agree about one in a hundred (4 of 480, 4 of 314).
     pub fn for_training(mut self) -> Self {
         self.dt = 1.0 / 240.0;
-        self.integrator = Integrator {
-            max_travel: 0.1,
-            max_substeps: 64,
-            iterations: 2,
-            ..Integrator::default()
-        };
+        self.integrator = Integrator::FINE;
         self
     }
 

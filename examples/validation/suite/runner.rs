@@ -19,18 +19,9 @@ pub enum Runner {
     /// A rapier world (f32) whose step is so many times the experiment's; the fall is recorded at every
     /// step.
     Rapier(u32),
-    /// The same, with steps integrated more finely than by default.
+    /// The same under [`Integrator::FINE`].
     Fine(u32),
 }
-
-/// Substeps of a tenth of a chord with two evaluations: what falls are trained with
-/// (`Experiment::for_training`).
-const FINE: Integrator = Integrator {
-    max_turn: 0.6,
-    max_travel: 0.1,
-    max_substeps: 64,
-    iterations: 2,
-};
 
 impl Runner {
     /// For tables.
@@ -61,7 +52,7 @@ impl Runner {
             Self::Rapier(times) => in_rapier(experiment, experiment.dt * f64::from(times)),
             Self::Fine(times) => {
                 let fine = Experiment {
-                    integrator: FINE,
+                    integrator: Integrator::FINE,
                     ..experiment.clone()
                 };
                 in_rapier(&fine, experiment.dt * f64::from(times))
