@@ -227,7 +227,7 @@ impl Emitter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coupling::step::RapierSets;
+    use crate::coupling::RapierSets;
     use crate::motion::Regime;
     use crate::motion::path::{Key, MotionPath};
     use crate::{Fluid, HydroProperties};

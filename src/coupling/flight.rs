@@ -1,8 +1,8 @@
 //! The arithmetic of a step: many bodies, in groups that fit the machine's registers, no rapier.
 
 use super::handover::Pace;
-use super::immersion::Slot;
 use super::kind::{Kind, Route, StepConstants};
+use super::slot::Slot;
 use super::stream::Stream;
 use super::wing::Wing;
 use crate::dynamics::Integrator;

@@ -1,10 +1,9 @@
 //! The set of immersed bodies.
 
-use super::flight::Integrated;
 use super::kind::Kind;
-use super::original::Original;
-use super::playback::Player;
+use super::slot::{FlightState, NONE, Slot};
 use super::stir::Stirred;
+use super::warning::Warning;
 use crate::body::ImmersedBody;
 use crate::dynamics::Integrator;
 use crate::flow::Flow;
@@ -14,7 +13,7 @@ use crate::turbulence::TurbulentLayer;
 use crate::{DryMass, Error};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::ColliderSet;
-use rapier3d::math::{Real, Vector};
+use rapier3d::math::Vector;
 use std::sync::Arc;
 
 /// Bodies of a rapier world that are immersed in one fluid.
@@ -84,125 +83,12 @@ pub struct Immersion {
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub(super) newcomers: Vec<RigidBodyHandle>,
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    pub(super) scratch: super::step::Scratch,
-}
-
-pub(super) const NONE: u32 = u32::MAX;
-
-/// One immersed body.
-#[derive(Clone, Debug)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
-pub(super) struct Slot {
-    pub handle: RigidBodyHandle,
-    pub description: u32,
-    pub enabled: bool,
-    /// What the body replays, if it does.
-    pub player: Option<Player>,
-    /// Factors on the law's drag, rotational lift and translational lift.
-    pub control: [f32; 3],
-    /// What rapier's body was before; `None` while it is not immersed.
-    pub original: Option<Box<Original>>,
-    /// Index of the kind; found again after loading a snapshot.
-    #[cfg_attr(feature = "serde-serialize", serde(skip, default = "no_kind"))]
-    pub kind: u32,
-    pub flight: FlightState,
+    pub(super) scratch: super::boarding::Scratch,
 }
 
 #[cfg(feature = "serde-serialize")]
 fn yes() -> bool {
     true
-}
-
-#[cfg(feature = "serde-serialize")]
-fn no_kind() -> u32 {
-    NONE
-}
-
-/// What a body in flight carries from step to step besides what rapier keeps.
-#[derive(Clone, Copy, Debug, Default)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
-pub(super) struct FlightState {
-    /// As integrated; rapier's attitude follows it to third order.
-    pub motion: Integrated,
-    /// The velocities that rapier shall have after its step if nothing interferes.
-    pub end_linear: Vector,
-    pub end_angular: Vector,
-    /// Mass that rapier's solver uses, kg.
-    pub solver_mass: Real,
-    /// Steps in a row whose contacts have been corrected.
-    pub contact: u8,
-    /// Velocity of the fluid in the last step, m/s, with its fluctuation.
-    pub stream: Vector,
-    pub stirred: Stirred,
-    /// Whether rapier could not be given the right inertia tensor: torques are converted then.
-    pub odd_inertia: bool,
-    /// Whether all this is from the step before.
-    pub flying: bool,
-}
-
-/// Something that a user should know about a body. Collected by the step, which cannot fail.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
-#[non_exhaustive]
-pub enum Warning {
-    /// The body cannot be immersed; it goes on as plain rapier moves it.
-    Refused {
-        /// The body.
-        body: RigidBodyHandle,
-        /// Why, in words.
-        reason: String,
-    },
-    /// Rapier's own inertia tensor for the body was wrong (see [`DryMass::of_body`]); while it is
-    /// immersed it has the right one.
-    WrongInertia {
-        /// The body.
-        body: RigidBodyHandle,
-        /// Largest error of an entry over the largest entry.
-        relative_error: f64,
-    },
-    /// Rapier's inertia tensor is wrong while the body is immersed, too: it has several colliders,
-    /// away from the body's origin, and is small. Free flight is right all the same; contacts turn
-    /// it wrongly. One compound collider instead of several avoids it.
-    OddInertia {
-        /// The body.
-        body: RigidBodyHandle,
-        /// Largest error of an entry over the largest entry.
-        relative_error: f64,
-    },
-}
-
-impl std::fmt::Display for Warning {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Refused { body, reason } => write!(f, "{body:?} is not immersed: {reason}"),
-            Self::WrongInertia {
-                body,
-                relative_error,
-            } => write!(
-                f,
-                "rapier's own inertia tensor of {body:?} is wrong by {:.0} %; corrected while immersed",
-                relative_error * 100.0
-            ),
-            Self::OddInertia {
-                body,
-                relative_error,
-            } => write!(
-                f,
-                "rapier makes an inertia tensor that is wrong by {:.0} % of the colliders of {body:?}, \
-                 which shows in contacts; use one compound collider",
-                relative_error * 100.0
-            ),
-        }
-    }
 }
 
 impl Immersion {
@@ -228,7 +114,7 @@ impl Immersion {
             kinds: Vec::new(),
             heavy_fluid: false,
             newcomers: Vec::new(),
-            scratch: super::step::Scratch::default(),
+            scratch: super::boarding::Scratch::default(),
         }
     }
 
@@ -475,6 +361,7 @@ impl Immersion {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::coupling::original::Original;
 
     /// What the documentation says of memory.
     #[test]

@@ -1,5 +1,6 @@
 //! The bridge to rapier: the only place that reads and writes its bodies.
 
+mod boarding;
 mod contact;
 mod emitter;
 mod flight;
@@ -8,6 +9,7 @@ mod from_rapier;
 mod handover;
 mod immersion;
 mod kind;
+mod membership;
 mod original;
 mod playback;
 mod played;
@@ -15,17 +17,21 @@ mod player;
 mod players;
 pub mod preset;
 mod readout;
+mod sets;
+mod slot;
 #[cfg(feature = "serde-serialize")]
 mod snapshot;
 mod step;
 mod stir;
 mod stream;
+mod warning;
 mod wing;
 
 pub use emitter::{Emitter, EmitterParams};
 pub use follow::{FollowParams, Followed};
-pub use immersion::{Immersion, Warning};
+pub use immersion::Immersion;
 pub use playback::OnContact;
 pub use player::{AtContact, Drive, MotionPlayer};
 pub use players::{MotionPlayers, Playing};
-pub use step::RapierSets;
+pub use sets::RapierSets;
+pub use warning::Warning;

@@ -1,6 +1,7 @@
 //! Control of single bodies: factors on the law's forces, set by hand or replayed from a codebook.
 
-use super::immersion::{Immersion, Slot};
+use super::immersion::Immersion;
+use super::slot::Slot;
 use crate::motion::ControlSeries;
 use rapier3d::dynamics::RigidBodyHandle;
 

@@ -3,7 +3,7 @@
 use super::immersion::Immersion;
 use super::played::{Slot, Step, touches};
 use super::player::MotionPlayer;
-use super::step::RapierSets;
+use super::sets::RapierSets;
 use crate::Error;
 use crate::flow::{Flow, FlowSample};
 use crate::motion::path::WindResponse;
@@ -238,4 +238,66 @@ fn bring(group: &[Slot], dt: Real) {
         sum += a.position.x + b.attitude.w;
     }
     std::hint::black_box(sum);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coupling::{AtContact, Drive};
+    use crate::motion::Regime;
+    use crate::motion::path::{Key, MotionPath};
+    use rapier3d::prelude::*;
+
+    /// What the world's pairs say of a player is what its own pairs say. Bodies land on a floor one after the
+    /// other, until the world is crowded and its pairs are asked no more.
+    #[test]
+    fn players_in_contact_are_found_alike_both_ways() {
+        let key = |t: Real| Key {
+            position: Vector::Y * -t,
+            velocity: -Vector::Y,
+            attitude: Rotation::IDENTITY,
+        };
+        let regimes = vec![(0.0, Regime::SteadyDescent)];
+        let path = Arc::new(MotionPath::new(10.0, vec![key(0.0), key(10.0)], regimes).unwrap());
+        let mut world = PhysicsWorld::new();
+        world.insert(
+            RigidBodyBuilder::fixed(),
+            ColliderBuilder::cuboid(50.0, 0.1, 50.0),
+        );
+        let mut players = MotionPlayers::new();
+        for i in 0..60 {
+            let at = Vector::new(i as Real, 0.3 + 0.02 * i as Real, 0.0);
+            let mut player = MotionPlayer::new(path.clone(), at);
+            player.at_contact = AtContact::Deflect;
+            let mut body = RigidBodyBuilder::dynamic();
+            if i % 2 == 0 {
+                player.drive = Drive::Kinematic;
+                body = RigidBodyBuilder::kinematic_position_based();
+            }
+            let (leaf, _) = world.insert(
+                body.pose(player.release(Vector::ZERO)),
+                ColliderBuilder::cuboid(0.04, 0.01, 0.02),
+            );
+            players.play(leaf, &player).unwrap();
+        }
+        let (mut found, mut apart, mut crowded) = (0, 0, 0);
+        for _ in 0..120 {
+            players.before_step(&mut RapierSets::of(&mut world), None);
+            assert_eq!(players.len(), 60);
+            for (slot, marked) in players.slots.iter().zip(&players.touching.slots) {
+                if players.touching.crowded {
+                    crowded += 1;
+                    continue;
+                }
+                let touching = touches(&world.bodies[slot.handle], &world.narrow_phase);
+                assert_eq!(*marked, touching);
+                *(if touching { &mut found } else { &mut apart }) += 1;
+            }
+            world.step();
+        }
+        assert!(
+            found > 100 && apart > 1000 && crowded > 1000,
+            "{found} {apart} {crowded}"
+        );
+    }
 }

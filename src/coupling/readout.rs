@@ -1,7 +1,8 @@
 //! The forces on one body of the world.
 
 use super::flight::vector;
-use super::immersion::{Immersion, NONE};
+use super::immersion::Immersion;
+use super::slot::NONE;
 use crate::dynamics::forces::{ForceBreakdown, Instant};
 use crate::dynamics::kirchhoff::Twist;
 use crate::math::{to_f64, to_quaternion};

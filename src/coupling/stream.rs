@@ -1,8 +1,9 @@
 //! What the fluid does around each body of a batch: its mean flow, and turbulence on top.
 
+use super::boarding::Batch;
 use super::flight::{Extra, Flyer, row, vector};
-use super::immersion::{FlightState, Immersion, NONE};
-use super::step::Batch;
+use super::immersion::Immersion;
+use super::slot::{FlightState, NONE};
 use super::stir::{Stir, Stirring};
 use crate::flow::FlowSample;
 use crate::math::{Row, dispatch};

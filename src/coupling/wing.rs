@@ -2,8 +2,8 @@
 
 use super::flight::{Air, Extra, Flyer, Integrated, Landing};
 use super::handover::Target;
-use super::immersion::NONE;
 use super::kind::{Law, StepConstants};
+use super::slot::NONE;
 use super::stream::Stream;
 use crate::dynamics::integrate::{Load, Motion, advance, rotate, rotate_back, substeps};
 use crate::dynamics::kirchhoff::{Twist, choose};

@@ -1,6 +1,6 @@
 //! A flow sampled on a grid, in memory or from a file.
 
-use super::{Flow, FlowSample, cells::Cells, lattice::Lattice, lattice::MAX_NODES};
+use super::{Flow, FlowSample, alone, cells::Cells, lattice::Lattice, lattice::MAX_NODES};
 use crate::Error;
 use crate::file::{FileKind, Reader, Writer};
 use crate::math::{Lanes, OnLanes, Row, dispatch};
@@ -185,9 +185,7 @@ impl Flow for GridFlow {
     }
 
     fn vorticity(&self, point: Vector, time: f64) -> Vector {
-        let mut sample = [FlowSample::default()];
-        self.sample(&[point], time, &mut sample);
-        sample[0].vorticity
+        alone(self, point, time).vorticity
     }
 
     fn sample(&self, points: &[Vector], time: f64, samples: &mut [FlowSample]) {

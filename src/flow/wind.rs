@@ -2,7 +2,7 @@
 
 use super::cells::{Cells, Pair};
 use super::lattice::{Lattice, MAX_NODES, cos_sin, fraction};
-use super::{Flow, FlowSample, LogLaw};
+use super::{Flow, FlowSample, LogLaw, alone};
 use crate::Error;
 use crate::file::{FileKind, Reader, Writer};
 use crate::math::{Lanes, MOST_LANES, OnLanes, Row, Scalar, dispatch};
@@ -294,9 +294,7 @@ impl Flow for SpectralWind {
     }
 
     fn vorticity(&self, point: Vector, time: f64) -> Vector {
-        let mut sample = [FlowSample::default()];
-        self.sample(&[point], time, &mut sample);
-        sample[0].vorticity
+        alone(self, point, time).vorticity
     }
 
     fn sample(&self, points: &[Vector], time: f64, samples: &mut [FlowSample]) {

@@ -1,0 +1,62 @@
+//! What a step cannot refuse to do but a user should know.
+
+use rapier3d::dynamics::RigidBodyHandle;
+
+/// Something that a user should know about a body. Collected by the step, which cannot fail.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The body cannot be immersed; it goes on as plain rapier moves it.
+    Refused {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Why, in words.
+        reason: String,
+    },
+    /// Rapier's own inertia tensor for the body was wrong (see [`DryMass::of_body`]); while it is
+    /// immersed it has the right one.
+    WrongInertia {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Largest error of an entry over the largest entry.
+        relative_error: f64,
+    },
+    /// Rapier's inertia tensor is wrong while the body is immersed, too: it has several colliders,
+    /// away from the body's origin, and is small. Free flight is right all the same; contacts turn
+    /// it wrongly. One compound collider instead of several avoids it.
+    OddInertia {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Largest error of an entry over the largest entry.
+        relative_error: f64,
+    },
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Refused { body, reason } => write!(f, "{body:?} is not immersed: {reason}"),
+            Self::WrongInertia {
+                body,
+                relative_error,
+            } => write!(
+                f,
+                "rapier's own inertia tensor of {body:?} is wrong by {:.0} %; corrected while immersed",
+                relative_error * 100.0
+            ),
+            Self::OddInertia {
+                body,
+                relative_error,
+            } => write!(
+                f,
+                "rapier makes an inertia tensor that is wrong by {:.0} % of the colliders of {body:?}, \
+                 which shows in contacts; use one compound collider",
+                relative_error * 100.0
+            ),
+        }
+    }
+}
