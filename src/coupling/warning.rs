@@ -17,7 +17,7 @@ pub enum Warning {
         /// Why, in words.
         reason: String,
     },
-    /// Rapier's own inertia tensor for the body was wrong (see [`DryMass::of_body`]); while it is
+    /// Rapier's own inertia tensor for the body was wrong (see [`DryMass::of_body`](crate::DryMass::of_body)); while it is
     /// immersed it has the right one.
     WrongInertia {
         /// The body.

@@ -57,8 +57,8 @@
 //! So: trajectories within one pattern, forces across patterns. Forces are sums of few products in
 //! the right coordinates (incidence, and the spin along and across the velocity), where rates and flow
 //! maps over velocities are not. Nothing follows autorotation for long: 1e-6 rad at the release become a
-//! millimetre in 2 s, and any error grows alike. The default law's flow map is beyond 10⁵ samples because of its stall and
-//! its kinks at rest and at zero spin.
+//! millimetre in 2 s, and any error grows alike. The default law's flow map is beyond 10⁵ samples because
+//! of its stall and its kinks at rest and at zero spin.
 //!
 //! The short-time forms take 10⁵ to 1.5·10⁶ samples and ten microseconds or more per step, more than the
 //! plate's rates or a step of `FreeBody` cost: they pay only for dynamics that cost more.
