@@ -1,53 +1,14 @@
 //! Which bodies a step moves, and what it has to know of them.
 
 use super::contact;
-use super::flight::{Clock, Extra, Flyer, Integrated, Landing, row};
+use super::flight::{Clock, Extra, Flyer, Integrated, row};
 use super::immersion::Immersion;
-use super::kind::Route;
+use super::scratch::Scratch;
 use super::sets::RapierSets;
 use super::slot::NONE;
-use super::step::Borrowed;
-use super::stir::Stirred;
 use super::stream::Stream;
-use crate::flow::FlowSample;
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::{Real, Rotation, Vector};
-
-/// Memory that is reused from step to step.
-#[derive(Clone, Default)]
-pub(super) struct Scratch {
-    /// Bodies that are about to be moved, by route.
-    pub batches: [Batch; Route::COUNT],
-    pub landings: Vec<Landing>,
-    /// Slots of bodies that are close to something, unless the world is `crowded`.
-    close: Vec<bool>,
-    crowded: bool,
-    /// Bodies between `before_step` and `after_step`.
-    pub borrowed: Vec<Borrowed>,
-    pub samples: Vec<FlowSample>,
-}
-
-/// Bodies of one route that are moved together.
-#[derive(Clone, Default)]
-pub(super) struct Batch {
-    pub flyers: Vec<Flyer>,
-    pub extras: Vec<Extra>,
-    /// Where the flyers are (centers of mass) and what flows past them; empty where nothing flows.
-    pub points: Vec<Vector>,
-    pub streams: Vec<Stream>,
-    /// What the flyers remember of the turbulence; empty where there is none.
-    pub stirred: Vec<Stirred>,
-}
-
-impl Batch {
-    pub fn clear(&mut self) {
-        self.flyers.clear();
-        self.extras.clear();
-        self.points.clear();
-        self.streams.clear();
-        self.stirred.clear();
-    }
-}
 
 /// Size of a batch: small enough for the bodies to be still in the cache when they are written, large
 /// enough for threads to share.

@@ -83,7 +83,7 @@ pub struct Immersion {
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub(super) newcomers: Vec<RigidBodyHandle>,
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    pub(super) scratch: super::boarding::Scratch,
+    pub(super) scratch: super::scratch::Scratch,
 }
 
 #[cfg(feature = "serde-serialize")]
@@ -114,7 +114,7 @@ impl Immersion {
             kinds: Vec::new(),
             heavy_fluid: false,
             newcomers: Vec::new(),
-            scratch: super::boarding::Scratch::default(),
+            scratch: super::scratch::Scratch::default(),
         }
     }
 

@@ -17,6 +17,7 @@ mod player;
 mod players;
 pub mod preset;
 mod readout;
+mod scratch;
 mod sets;
 mod slot;
 #[cfg(feature = "serde-serialize")]

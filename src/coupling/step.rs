@@ -1,31 +1,20 @@
 //! Before and after rapier's step.
 
-use super::boarding::Scratch;
 use super::contact;
 use super::flight::{Air, Clock, Flyer, Landing, fly, vector};
 use super::handover::Pace;
 use super::immersion::Immersion;
 use super::kind::Route;
+use super::scratch::{Borrowed, Scratch};
 use super::sets::RapierSets;
 use super::stream::Stream;
 use rapier3d::dynamics::RigidBodyHandle;
-use rapier3d::math::Vector;
 use rapier3d::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
 /// Steps of a contact that count as its impact: what the contact did is corrected in these. A velocity
 /// that is set after the step is new to the solver; in a pile of leaves such corrections kept up 2 cm/s
 /// forever, where without them it comes to rest below 1 mm/s.
 const IMPACT: u8 = 3;
-
-/// What a body was lent for the length of a step.
-#[derive(Clone, Copy)]
-pub(super) struct Borrowed {
-    handle: RigidBodyHandle,
-    slot: u32,
-    force: Vector,
-    torque: Vector,
-    touching: bool,
-}
 
 impl Immersion {
     /// Steps the world, with the immersed bodies in their fluid.
@@ -72,12 +61,8 @@ impl Immersion {
             }
             let islands = sets.islands;
             islands.active_bodies().for_each(|handle| {
-                let key = handle.into_raw_parts();
-                let new = |list: &[RigidBodyHandle]| {
-                    list.binary_search_by_key(&key, |h| h.into_raw_parts())
-                        .is_ok()
-                };
-                if newcomers.is_empty() || !new(&newcomers) {
+                let key = |handle: &RigidBodyHandle| handle.into_raw_parts();
+                if newcomers.binary_search_by_key(&key(&handle), key).is_err() {
                     self.board(handle, sets, &mut scratch, &clock);
                 }
             });

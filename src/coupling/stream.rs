@@ -1,8 +1,8 @@
 //! What the fluid does around each body of a batch: its mean flow, and turbulence on top.
 
-use super::boarding::Batch;
 use super::flight::{Extra, Flyer, row, vector};
 use super::immersion::Immersion;
+use super::scratch::Batch;
 use super::slot::{FlightState, NONE};
 use super::stir::{Stir, Stirring};
 use crate::flow::FlowSample;

@@ -404,6 +404,7 @@ mod tests {
         let turned = UnitQuaternion::new_unchecked(turned(&raw, &small));
         assert!(turned.angle_to(&cayley) < 1e-7);
     }
+
     /// A law that has gone mad.
     struct NotANumber;
 
