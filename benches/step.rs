@@ -5,6 +5,8 @@
 
 use criterion::{BenchmarkId, Criterion};
 use rapier3d_immersed::flow::GridFlow;
+#[cfg(feature = "bake")]
+use rapier3d_immersed::flow::{SpectralWind, WindParams};
 use rapier3d_immersed::motion::{ControlSeries, Dwell, Pattern};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::turbulence::{NoiseStream, Turbulence, TurbulenceState};
@@ -58,17 +60,50 @@ fn turbulence() -> Turbulence {
     })
 }
 
-/// Time per body of `before_step` in still, stirred and windy air, in turn: what turbulence and wind
-/// add. The leaves start so far apart that wind does not drive them into pairs, which cost on their own.
-fn added(count: usize, rounds: usize) -> [Vec<f64>; 3] {
-    let mut runs = [(); 3].map(|()| {
-        let (world, handles) = spread(count, 2.0);
-        let immersion = immersed(&world, &handles);
-        (world, immersion)
-    });
-    runs[1].1.set_turbulence(turbulence());
-    runs[2].1.set_flow(grid_wind());
-    let mut times = [const { Vec::new() }; 3];
+/// A wind that evolves, of so many layers.
+#[cfg(feature = "bake")]
+fn spectral_wind(layers: usize) -> SpectralWind {
+    SpectralWind::bake(&WindParams {
+        nodes: [100, 100, layers],
+        up: Vector::Y,
+        ..WindParams::default()
+    })
+    .unwrap()
+}
+
+/// What stirs the air of an immersion.
+type Air = (&'static str, fn(&mut Immersion));
+
+fn airs() -> Vec<Air> {
+    let airs: Vec<Air> = vec![
+        ("still air", |_| {}),
+        ("turbulence", |i| i.set_turbulence(turbulence())),
+        ("grid wind", |i| i.set_flow(grid_wind())),
+    ];
+    #[cfg(feature = "bake")]
+    let airs = {
+        let baked: Vec<Air> = vec![
+            ("spectral wind 100²", |i| i.set_flow(spectral_wind(1))),
+            ("spectral wind 100³", |i| i.set_flow(spectral_wind(100))),
+        ];
+        [airs, baked].concat()
+    };
+    airs
+}
+
+/// Time per body of `before_step` in each of these airs, in turn. The leaves start so far apart that wind
+/// does not drive them into pairs, which cost on their own.
+fn added(count: usize, rounds: usize, airs: &[Air]) -> Vec<Vec<f64>> {
+    let mut runs: Vec<_> = airs
+        .iter()
+        .map(|(_, stir)| {
+            let (world, handles) = spread(count, 2.0);
+            let mut immersion = immersed(&world, &handles);
+            stir(&mut immersion);
+            (world, immersion)
+        })
+        .collect();
+    let mut times = vec![Vec::new(); airs.len()];
     for round in 0..rounds + 10 {
         for ((world, immersion), list) in runs.iter_mut().zip(&mut times) {
             let start = Instant::now();
@@ -222,12 +257,16 @@ fn main() {
         );
     }
     let count = if quick { 100 } else { 10_000 };
-    let [still, stirred, windy] =
-        added(count, if quick { 3 } else { 60 }).map(|mut times| median(&mut times));
+    let airs = airs();
+    let mut times = added(count, if quick { 3 } else { 60 }, &airs);
+    let costs: Vec<_> = times.iter_mut().map(|times| median(times)).collect();
+    let added = airs.iter().zip(&costs).skip(1);
+    let added: Vec<_> = added
+        .map(|((name, _), cost)| format!("{name} {:.0}", cost - costs[0]))
+        .collect();
     println!(
-        "immersion: {count} bodies: turbulence adds {:.0} ns, grid wind {:.0} ns per body-step",
-        stirred - still,
-        windy - still,
+        "immersion: {count} bodies: ns per body-step that are added by {}",
+        added.join(", ")
     );
     println!(
         "immersion: {count} bodies that replay a series: {:.1} ns per body-step more than constant \

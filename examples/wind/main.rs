@@ -248,9 +248,12 @@ fn report(
         chi(&history[history.len() - 1]),
     );
     println!(
-        "  divergence left {:.1e} U/h, {} steps not converged, Courant number at most {:.2}, particle left the box at {:?} L/U₀",
-        plate.worst_divergence, plate.unconverged_steps, plate.largest_courant, plate.left_box_at
+        "  divergence left {:.1e} U/h, {} steps not converged, Courant number at most {:.2}",
+        plate.worst_divergence, plate.unconverged_steps, plate.largest_courant
     );
+    if let Some(time) = plate.left_box_at {
+        println!("  the particle left the box at {time:.2} L/U₀");
+    }
     println!("pictures in {}", arguments.out.display());
 }
 

@@ -171,3 +171,31 @@ fn absurd_worlds() {
         assert!(body.linear_velocity().iter().all(|x| x.is_finite()), "{dt}");
     }
 }
+
+/// Limits on substeps that make no sense: the body falls on, finite, as fast as it can at most.
+#[test]
+fn absurd_integrators() {
+    for limit in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for (max_turn, max_travel) in [(limit, 0.3), (0.2, limit), (limit, limit)] {
+            let mut world = PhysicsWorld::new();
+            let (handle, _) = world.insert(
+                RigidBodyBuilder::dynamic(),
+                ColliderBuilder::cuboid(0.03, 0.0002, 0.02).density(300.0),
+            );
+            let hydro =
+                HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
+            let mut immersion = Immersion::new(Fluid::AIR);
+            immersion.insert(handle, hydro);
+            immersion.integrator.max_turn = max_turn;
+            immersion.integrator.max_travel = max_travel;
+            for _ in 0..120 {
+                immersion.step(&mut world);
+            }
+            let body = &world.bodies[handle];
+            let fall = -body.translation().y;
+            // Two seconds of free fall are 19.6 m.
+            assert!(fall > 0.1 && fall < 19.7, "{max_turn} {max_travel}: {fall}");
+            assert!(body.angvel().is_finite(), "{max_turn} {max_travel}");
+        }
+    }
+}
