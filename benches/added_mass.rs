@@ -1,9 +1,9 @@
 //! Time of one boundary-element solve against the number of panels.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use rapier3d_immersed::AddedMass;
+use rapier3d_immersed::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::geometry::{Ellipsoid, Sheet, Surface};
-use rapier3d_immersed::hydro::AddedMass;
-use rapier3d_immersed::hydro::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::rapier3d::na::Vector3;
 use std::hint::black_box;
 

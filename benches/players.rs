@@ -1,11 +1,11 @@
 //! What playing synthesized falls costs, per player and step, beside rapier's own step:
 //! `cargo bench --bench players`.
 
-use rapier3d_immersed::coupling::{Drive, Emitter, EmitterParams, MotionPlayer, MotionPlayers};
 use rapier3d_immersed::motion::path::{
     MotionPath, SynthesisParams, Synthesizer, TrajectoryDatabase,
 };
-use rapier3d_immersed::motion::{Numbers, Outline};
+use rapier3d_immersed::motion::{DimensionlessNumbers, Outline};
+use rapier3d_immersed::playback::{Drive, Emitter, EmitterParams, MotionPlayer, MotionPlayers};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
 use std::sync::Arc;
@@ -13,8 +13,9 @@ use std::time::Instant;
 
 fn main() {
     let quick = std::env::args().any(|arg| arg == "--test");
-    let numbers = Numbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81)
-        .expect("a leaf in air");
+    let numbers =
+        DimensionlessNumbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81)
+            .expect("a leaf in air");
     let params = SynthesisParams {
         height: 20.0,
         ..SynthesisParams::default()

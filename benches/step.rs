@@ -149,11 +149,11 @@ fn interleaved(count: usize, rounds: usize) -> [Vec<f64>; 3] {
 
 /// What replaying a series of control parameters costs per body-step over constant ones, ns: the hook
 /// alone, of two equal worlds in turn.
-fn playing(count: usize, rounds: usize) -> f64 {
+fn replaying(count: usize, rounds: usize) -> f64 {
     let (mut worlds, mut immersions) = (Vec::new(), Vec::new());
     let book: Vec<ControlSeries> = (0..16)
         .map(|i| {
-            let controls = (0..400).map(|k| [1.0 + 1e-3 * (i + k) as f32, 1.0, 1.0]);
+            let controls = (0..400).map(|k| [1.0 + 1e-3 * (i + k) as f32, 1.0, 1.0].into());
             let dwell = Dwell {
                 pattern: Pattern::Zigzag,
                 from: 0,
@@ -166,9 +166,9 @@ fn playing(count: usize, rounds: usize) -> f64 {
         let mut immersion = immersed(&world, &handles);
         for (i, handle) in handles.iter().enumerate() {
             if player {
-                immersion.play(*handle, &book[i % book.len()], OnContact::Restart);
+                immersion.replay(*handle, &book[i % book.len()], OnContact::Restart);
             } else {
-                immersion.set_control(*handle, [1.1, 1.0, 1.0]);
+                immersion.set_control(*handle, [1.1, 1.0, 1.0].into());
             }
         }
         worlds.push(world);
@@ -271,7 +271,7 @@ fn main() {
     println!(
         "immersion: {count} bodies that replay a series: {:.1} ns per body-step more than constant \
          coefficients",
-        playing(count, if quick { 4 } else { 100 })
+        replaying(count, if quick { 4 } else { 100 })
     );
     println!(
         "immersion: {count} sleeping bodies: {:.1} ns per body-step",

@@ -16,11 +16,11 @@ mod support;
 
 use clap::{Parser, ValueEnum};
 use rand::{RngExt, SeedableRng};
-use rapier3d_immersed::coupling::{Immersion, Warning, preset};
 use rapier3d_immersed::flow::LogLaw;
 use rapier3d_immersed::rapier3d::math::{Pose, Rotation, Vector};
 use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
 use rapier3d_immersed::turbulence::{LangevinMode, Turbulence, TurbulenceState, TurbulentLayer};
+use rapier3d_immersed::{Immersion, Warning, preset};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use support::airplane::Flight;

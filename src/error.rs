@@ -179,6 +179,15 @@ pub enum Error {
         pattern: &'static str,
     },
 
+    /// A viscous law has no coefficient of this name.
+    #[error("there is no coefficient '{name}'; this law has {}", known.join(", "))]
+    UnknownCoefficient {
+        /// The name that was given.
+        name: String,
+        /// The names that there are.
+        known: Vec<&'static str>,
+    },
+
     /// The bytes do not start like a file of the expected kind.
     #[error("not a {file} file")]
     WrongFileKind {

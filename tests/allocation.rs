@@ -3,10 +3,10 @@
 //! Rapier lists every body that is accessed mutably, and throws that list away in each step: the list's
 //! growth is what remains, the same as for a loop that only touches the bodies.
 
-use rapier3d_immersed::coupling::{Drive, MotionPlayer, MotionPlayers};
 use rapier3d_immersed::flow::{Flow, Uniform};
 use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{Key, MotionPath, WindResponse};
+use rapier3d_immersed::playback::{Drive, MotionPlayer, MotionPlayers};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
 use std::alloc::{GlobalAlloc, Layout, System};

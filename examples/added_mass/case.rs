@@ -1,10 +1,10 @@
 //! The bodies on offer.
 
 use rapier3d_immersed::Error;
-use rapier3d_immersed::geometry::{Ellipsoid, Sheet, Surface};
-use rapier3d_immersed::hydro::boundary_element::{
+use rapier3d_immersed::boundary_element::{
     BoundaryElementParams, BoundaryElementSolution, ProgressFn,
 };
+use rapier3d_immersed::geometry::{Ellipsoid, Sheet, Surface};
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
 use std::path::Path;

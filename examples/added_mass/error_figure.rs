@@ -2,9 +2,9 @@
 
 use crate::previous;
 use plotters::prelude::*;
+use rapier3d_immersed::AddedMass;
+use rapier3d_immersed::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::geometry::{Ellipsoid, Surface};
-use rapier3d_immersed::hydro::AddedMass;
-use rapier3d_immersed::hydro::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::rapier3d::na::{Matrix6, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
 use std::path::Path;

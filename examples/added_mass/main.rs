@@ -16,7 +16,7 @@ mod proxy;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use rapier3d_immersed::hydro::boundary_element::{
+use rapier3d_immersed::boundary_element::{
     BoundaryElementParams, BoundaryElementProgress, BoundaryElementSolution,
 };
 use rapier3d_immersed::rapier3d::na::Matrix3;

@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use plotters::prelude::*;
-use rapier3d_immersed::hydro::boundary_element::BoundaryElementSolution;
+use rapier3d_immersed::boundary_element::BoundaryElementSolution;
 use rapier3d_immersed::rapier3d::na::Vector3;
 use std::error::Error;
 use std::path::Path;

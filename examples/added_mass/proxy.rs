@@ -2,7 +2,7 @@
 //! principal axes.
 
 use crate::case::Case;
-use rapier3d_immersed::hydro::{AddedMass, HydroProperties};
+use rapier3d_immersed::{AddedMass, HydroProperties};
 
 pub struct ProxyError {
     pub linear: f64,

@@ -3,13 +3,13 @@
 use crate::Context;
 use crate::support::draw::{Item, Panel, Point, color, isometric};
 use plotters::style::RGBColor;
-use rapier3d_immersed::coupling::FollowParams;
 use rapier3d_immersed::flow::FlowSample;
 use rapier3d_immersed::motion::{
-    Classifier, Moment, MotionGraph, Numbers, Pattern, Sketch, Trajectory,
+    Classifier, DimensionlessNumbers, Moment, MotionGraph, Pattern, Sketch, Trajectory,
 };
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::{ColliderBuilder, MassProperties, Vector};
+use rapier3d_immersed::training::FollowParams;
 use rapier3d_immersed::training::{
     Experiment, Plan, Planner, PlannerParams, Subspaces, thin_ellipsoid,
 };
@@ -110,7 +110,7 @@ pub fn helix(context: &Context) -> Result<Value, Error> {
 /// Fig. 5.13: a card of 4 × 2 × 0.04 cm released at 30°, effects switched on one by one.
 pub fn effects(context: &Context, seed: u64) -> Result<Value, Error> {
     let (hydro, mass) = thin_ellipsoid([0.02, 0.01, 0.0002], 800.0)?;
-    let numbers = Numbers::of(&hydro, &mass, &Fluid::AIR, 9.81)?;
+    let numbers = DimensionlessNumbers::of(&hydro, &mass, &Fluid::AIR, 9.81)?;
     let body = ImmersedBody::new(hydro);
     let release = |body: ImmersedBody, fluid: Fluid| {
         let mut experiment = Experiment::new(body, mass, fluid);
@@ -179,7 +179,7 @@ fn turned_to_drift(fall: &Trajectory) -> Trajectory {
 /// The experiment in a fluid whose velocity fluctuates by 30 % of U0.
 fn in_turbulence(
     experiment: &Experiment,
-    numbers: &Numbers,
+    numbers: &DimensionlessNumbers,
     seed: u64,
 ) -> Result<Trajectory, Error> {
     let state = TurbulenceState::from_intensity(numbers.u0 as f32, 0.3, numbers.length as f32)?;
@@ -248,7 +248,7 @@ pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Er
         let series = &plan.series;
         let mut steps = Vec::new();
         for (i, control) in series.controls().iter().enumerate() {
-            let c = f64::from(control[k]);
+            let c = f64::from(<[f32; 3]>::from(*control)[k]);
             let t = i as f64 * series.interval();
             steps.extend([(t, c), (t + series.interval(), c)]);
         }
@@ -267,7 +267,7 @@ pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Er
             let alpha = sine.asin();
             let t = i as f64 * plan.fall.interval;
             let shape = [sine * sine, (2.0 * alpha).sin(), (2.0 * alpha).cos()][k];
-            (t, f64::from(series.at(t)[k]) * shape)
+            (t, f64::from(<[f32; 3]>::from(series.at(t))[k]) * shape)
         });
         forces
             .items

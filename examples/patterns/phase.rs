@@ -4,7 +4,7 @@ use crate::Context;
 use crate::support::draw::{Item, Panel};
 use clap::{Args, ValueEnum};
 use plotters::style::RGBColor;
-use rapier3d_immersed::motion::{Numbers, Outline, PhaseDiagram, Regime};
+use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, PhaseDiagram, Regime};
 use rapier3d_immersed::{Error, Fluid};
 use serde_json::{Value, json};
 
@@ -76,7 +76,8 @@ pub fn draw(context: &Context, arguments: &BodyArguments) -> Result<Value, Error
         OutlineName::Rectangular => Outline::Rectangular,
     };
     let (length, thickness) = (arguments.length, arguments.thickness);
-    let numbers = Numbers::new(outline, length, thickness, arguments.density, &fluid, 9.81)?;
+    let numbers =
+        DimensionlessNumbers::new(outline, length, thickness, arguments.density, &fluid, 9.81)?;
     let descent = numbers.broadside_descent();
     let reynolds = numbers.reynolds_at(descent);
     let diagram = PhaseDiagram::default();

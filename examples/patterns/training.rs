@@ -3,7 +3,7 @@
 use crate::support::draw::{Item, Panel, color, cube, depth, isometric};
 use crate::{Context, bar};
 use rapier3d_immersed::Error;
-use rapier3d_immersed::motion::{Classifier, Numbers, Pattern};
+use rapier3d_immersed::motion::{Classifier, DimensionlessNumbers, Pattern};
 use rapier3d_immersed::training::{Clusters, Experiment, Grid, Sample, Subspaces, Sweep};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -33,7 +33,8 @@ impl Trained {
         let seconds = start.elapsed().as_secs_f64();
         let samples: Vec<Sample> = sweep.samples().iter().flatten().copied().collect();
         let body = &experiment.body.hydro;
-        let length = Numbers::of(body, &experiment.mass, &experiment.fluid, 9.81)?.length;
+        let length =
+            DimensionlessNumbers::of(body, &experiment.mass, &experiment.fluid, 9.81)?.length;
         let clusters = Clusters::find(&samples, length, seed)?;
         Ok(Self {
             name: name.into(),

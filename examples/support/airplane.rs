@@ -8,9 +8,9 @@ use super::scene::{Kind, Scene};
 use super::sheet::{Camera, contact_sheet};
 use super::{Quat, Vec3, cli};
 use plotters::style::RGBColor;
-use rapier3d_immersed::coupling::preset;
+use rapier3d_immersed::AddedMass;
 use rapier3d_immersed::geometry::Sheet;
-use rapier3d_immersed::hydro::AddedMass;
+use rapier3d_immersed::preset;
 use rapier3d_immersed::rapier3d::geometry::SharedShape;
 use rapier3d_immersed::rapier3d::math::{Pose, Vector};
 use rapier3d_immersed::rapier3d::na::Matrix3;
@@ -49,9 +49,7 @@ pub fn stored_added_mass() -> (AddedMass, f64) {
 /// The same, solved anew.
 #[cfg(feature = "bake")]
 pub fn solved_added_mass() -> AddedMass {
-    use rapier3d_immersed::hydro::boundary_element::{
-        BoundaryElementParams, BoundaryElementSolution,
-    };
+    use rapier3d_immersed::boundary_element::{BoundaryElementParams, BoundaryElementSolution};
     BoundaryElementSolution::of_sheets(
         |level| {
             let cells = 12.0 * 2f64.powf(0.5 * level as f64);

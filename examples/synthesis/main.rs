@@ -15,7 +15,7 @@ use clap::Parser;
 use rapier3d_immersed::motion::path::{
     DatabaseParams, SynthesisParams, Synthesizer, TrajectoryDatabase,
 };
-use rapier3d_immersed::motion::{Numbers, Outline, PhaseDiagram};
+use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, PhaseDiagram};
 use rapier3d_immersed::{Error, Fluid};
 use serde_json::json;
 use std::path::PathBuf;
@@ -46,7 +46,7 @@ struct Arguments {
 /// A worked body of thesis § 3.6.
 pub struct Body {
     pub name: &'static str,
-    pub numbers: Numbers,
+    pub numbers: DimensionlessNumbers,
     /// Longest extent, m.
     pub length: f64,
     /// Release height, m.
@@ -71,7 +71,8 @@ impl Body {
 /// and leaf are ours.
 fn bodies() -> Result<[Body; 3], Error> {
     let body = |name, fluid: Fluid, [length, chord, thickness]: [f64; 3], density, height| {
-        let numbers = Numbers::new(Outline::Round, chord, thickness, density, &fluid, 9.81)?;
+        let numbers =
+            DimensionlessNumbers::new(Outline::Round, chord, thickness, density, &fluid, 9.81)?;
         Ok(Body {
             name,
             numbers,

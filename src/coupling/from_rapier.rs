@@ -1,7 +1,7 @@
 //! What rapier's bodies are made of, read in f64, and mass properties that rapier gets right.
 
-use crate::Error;
 use crate::body::DryMass;
+use crate::error::Error;
 use crate::geometry::Surface;
 use crate::hydro::{Accuracy, HydroProperties};
 use crate::math::{to_f64, to_quaternion, to_real, to_rotation};
@@ -186,12 +186,7 @@ fn of_collider(collider: &Collider, pose: &Pose) -> Result<DryMass, Error> {
 /// A collider filled uniformly up to `mass`.
 fn of_uniform_density(collider: &Collider, pose: &Pose, mass: f64) -> Result<DryMass, Error> {
     let surface = Surface::from_shape(collider.shape())?;
-    let integrals = surface.posed(pose).volume_integrals();
-    Ok(DryMass {
-        mass,
-        center: integrals.centroid,
-        inertia: integrals.unit_inertia() * (mass / integrals.volume),
-    })
+    DryMass::uniform(&surface.posed(pose), mass)
 }
 
 fn of_mass_properties(properties: &MassProperties, pose: &Pose) -> DryMass {

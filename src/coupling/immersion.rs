@@ -1,19 +1,25 @@
-//! The set of immersed bodies.
+//! The set of immersed bodies: what users hold.
 
-use super::kind::Kind;
-use super::slot::{FlightState, NONE, Slot};
-use super::stir::Stirred;
-use super::warning::Warning;
+use super::admission;
+use super::control::{OnContact, SeriesTable};
+use super::environment::Environment;
+use super::rapier_sets::RapierSets;
+use super::readout;
+use super::registry::Registry;
+use super::shared_constants::ConstantsTable;
+use super::step::driver::{self, StepParts};
+use super::step::workspace::Workspace;
+use super::warning::{Warning, Warnings};
 use crate::body::ImmersedBody;
-use crate::dynamics::Integrator;
+use crate::dynamics::{ForceBreakdown, Integrator};
 use crate::flow::Flow;
 use crate::fluid::Fluid;
+use crate::hydro::viscous::ForceFactors;
 use crate::motion::ControlSeries;
 use crate::turbulence::TurbulentLayer;
-use crate::{DryMass, Error};
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::ColliderSet;
-use rapier3d::math::Vector;
+use rapier3d::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 use std::sync::Arc;
 
 /// Bodies of a rapier world that are immersed in one fluid.
@@ -40,81 +46,56 @@ use std::sync::Arc;
 /// About 550 bytes per body, besides what equal bodies share.
 ///
 /// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+///
+/// let mut world = PhysicsWorld::new();
+/// let coin = ColliderBuilder::cylinder(0.0008, 0.01).density(7000.0);
+/// let (coin, _) = world.insert(RigidBodyBuilder::dynamic().rotation(Vector::X * 0.5), coin);
+/// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, coin)?;
+///
+/// let mut immersion = Immersion::new(Fluid::WATER);
+/// immersion.insert(coin, hydro);
+/// for _ in 0..60 {
+///     immersion.step(&mut world);
+/// }
+/// assert!((-0.8..-0.1).contains(&world.bodies[coin].linvel().y));
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone)]
 #[cfg_attr(
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct Immersion {
-    pub(super) fluid: Fluid,
     /// How finely flight is integrated within a step of rapier.
     pub integrator: Integrator,
-    pub(super) enabled: bool,
-    pub(super) time: f64,
-    /// Number of steps so far: what the noise of a step depends on.
-    pub(super) steps: u64,
-    /// Of the last step, for the read-out.
-    pub(super) gravity: Vector,
-    pub(super) descriptions: Vec<ImmersedBody>,
-    pub(super) slots: Vec<Option<Slot>>,
-    /// Slot of each rapier body index, or `NONE`.
-    pub(super) lookup: Vec<u32>,
-    pub(super) free: Vec<u32>,
-    pub(super) warnings: Vec<Warning>,
-    pub(super) sweep: u32,
-    /// The series that bodies replay; `None` where there is room for one.
-    pub(super) series: Vec<Option<ControlSeries>>,
-    /// Whether bodies may have to enter or leave the fluid.
-    #[cfg_attr(feature = "serde-serialize", serde(skip, default = "yes"))]
-    pub(super) changed: bool,
-    /// The velocity field; `None` is a fluid at rest. Not part of a snapshot: set it again.
+    enabled: bool,
+    environment: Environment,
+    registry: Registry,
+    series: SeriesTable,
+    warnings: Warnings,
+    /// Made again after loading.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    pub(super) flow: Option<Arc<dyn Flow>>,
-    /// The turbulence on top of it. Not part of a snapshot either; what bodies remember of it is.
+    constants: ConstantsTable,
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    pub(super) turbulence: Option<TurbulentLayer>,
-    /// Rebuilt from the slots after loading.
-    #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    pub(super) kinds: Vec<Kind>,
-    /// Whether one of the kinds drags much fluid along.
-    #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    pub(super) heavy_fluid: bool,
-    /// Bodies that rapier may not list as active yet.
-    #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    pub(super) newcomers: Vec<RigidBodyHandle>,
-    #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    pub(super) scratch: super::scratch::Scratch,
-}
-
-#[cfg(feature = "serde-serialize")]
-fn yes() -> bool {
-    true
+    workspace: Workspace,
 }
 
 impl Immersion {
     /// An empty set in a fluid at rest.
     pub fn new(fluid: Fluid) -> Self {
         Self {
-            fluid,
             integrator: Integrator::default(),
             enabled: true,
-            time: 0.0,
-            steps: 0,
-            gravity: Vector::ZERO,
-            descriptions: Vec::new(),
-            slots: Vec::new(),
-            lookup: Vec::new(),
-            free: Vec::new(),
-            warnings: Vec::new(),
-            sweep: 0,
-            series: Vec::new(),
-            changed: false,
-            flow: None,
-            turbulence: None,
-            kinds: Vec::new(),
-            heavy_fluid: false,
-            newcomers: Vec::new(),
-            scratch: super::scratch::Scratch::default(),
+            environment: Environment::new(fluid),
+            registry: Registry::default(),
+            series: SeriesTable::default(),
+            warnings: Warnings::default(),
+            constants: ConstantsTable::default(),
+            workspace: Workspace::default(),
         }
     }
 
@@ -125,63 +106,38 @@ impl Immersion {
     /// immersed gets the new description. What cannot be immersed (without mass, say) is left to
     /// plain rapier and reported in [`Immersion::warnings`].
     pub fn insert(&mut self, handle: RigidBodyHandle, body: impl Into<ImmersedBody>) {
-        let body = body.into();
-        let description = match self.descriptions.iter().rposition(|known| *known == body) {
-            Some(index) => index,
-            None => {
-                self.descriptions.push(body);
-                self.descriptions.len() - 1
-            }
-        } as u32;
-        self.insert_described(handle, description);
+        self.insert_all([handle], body);
     }
 
     /// Immerses many equal bodies: `body` is compared with the known descriptions only once.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let confetti = ColliderBuilder::cuboid(0.005, 0.0001, 0.003).density(700.0);
+    /// let handles: Vec<_> = (0..100)
+    ///     .map(|i| {
+    ///         let body = RigidBodyBuilder::dynamic().translation(Vector::X * (0.1 * i as f32));
+    ///         world.insert(body, confetti.clone()).0
+    ///     })
+    ///     .collect();
+    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handles[0])?;
+    /// let mut immersion = Immersion::new(Fluid::AIR);
+    /// immersion.insert_all(handles, hydro);
+    /// assert_eq!(immersion.len(), 100);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn insert_all(
         &mut self,
         handles: impl IntoIterator<Item = RigidBodyHandle>,
         body: impl Into<ImmersedBody>,
     ) {
-        let mut handles = handles.into_iter();
-        if let Some(first) = handles.next() {
-            self.insert(first, body);
-            let description = self.slot(first).map_or(0, |slot| slot.description);
-            for handle in handles {
-                self.insert_described(handle, description);
-            }
+        let description = self.registry.describe(body.into());
+        for handle in handles {
+            self.registry.insert(handle, description);
         }
-    }
-
-    fn insert_described(&mut self, handle: RigidBodyHandle, description: u32) {
-        self.changed = true;
-        if let Some(slot) = self.slot_mut(handle) {
-            slot.description = description;
-            slot.kind = NONE;
-            return;
-        }
-        let index = handle.into_raw_parts().0 as usize;
-        if self.lookup.len() <= index {
-            self.lookup.resize(index + 1, NONE);
-        }
-        // A slot that a removed body of the same index left behind is taken over.
-        let slot = match self.lookup[index] {
-            NONE => self.free.pop().unwrap_or_else(|| {
-                self.slots.push(None);
-                self.slots.len() as u32 - 1
-            }),
-            stale => stale,
-        };
-        self.lookup[index] = slot;
-        self.slots[slot as usize] = Some(Slot {
-            handle,
-            description,
-            enabled: true,
-            player: None,
-            control: [1.0; 3],
-            original: None,
-            kind: NONE,
-            flight: FlightState::default(),
-        });
     }
 
     /// Takes a body out of the fluid and gives it back the mass properties and switches that it had.
@@ -192,27 +148,21 @@ impl Immersion {
         bodies: &mut RigidBodySet,
         colliders: &mut ColliderSet,
     ) {
-        let Some(index) = self.index(handle) else {
-            return;
-        };
-        if let Some(slot) = self.slots[index as usize].take()
-            && let Some(original) = slot.original
-        {
-            original.restore(handle, bodies, colliders);
+        let state = self.registry.remove(handle);
+        if let Some(saved) = state.and_then(|state| state.saved) {
+            saved.restore(handle, bodies, colliders);
         }
-        self.lookup[handle.into_raw_parts().0 as usize] = NONE;
-        self.free.push(index);
     }
 
     /// Whether a body is in the set, enabled or not.
     pub fn contains(&self, handle: RigidBodyHandle) -> bool {
-        self.index(handle).is_some()
+        self.registry.index(handle).is_some()
     }
 
     /// Number of bodies in the set. Bodies that were removed from rapier count until the step has
     /// come across them.
     pub fn len(&self) -> usize {
-        self.slots.len() - self.free.len()
+        self.registry.len()
     }
 
     /// Whether no body is immersed.
@@ -222,15 +172,15 @@ impl Immersion {
 
     /// The description of a body.
     pub fn get(&self, handle: RigidBodyHandle) -> Option<&ImmersedBody> {
-        let slot = self.slot(handle)?;
-        Some(&self.descriptions[slot.description as usize])
+        let state = self.registry.get(handle)?;
+        Some(self.registry.description(state))
     }
 
     /// Switches the fluid off or on for the whole set, from the next step on. While off, the world
     /// steps as plain rapier: mass properties and switches are those from before immersion.
     pub fn set_enabled(&mut self, enabled: bool) {
         self.enabled = enabled;
-        self.changed = true;
+        self.registry.changed = true;
     }
 
     /// Whether the fluid is on for the set.
@@ -240,134 +190,259 @@ impl Immersion {
 
     /// Switches the fluid off or on for one body, from the next step on.
     pub fn set_body_enabled(&mut self, handle: RigidBodyHandle, enabled: bool) {
-        if let Some(slot) = self.slot_mut(handle) {
-            slot.enabled = enabled;
-            self.changed = true;
+        if let Some(state) = self.registry.get_mut(handle) {
+            state.enabled = enabled;
+            self.registry.changed = true;
         }
     }
 
     /// The fluid.
     pub fn fluid(&self) -> &Fluid {
-        &self.fluid
+        &self.environment.fluid
     }
 
     /// Changes the fluid, from the next step on.
     pub fn set_fluid(&mut self, fluid: Fluid) {
-        self.fluid = fluid;
-        self.kinds.clear();
-        self.heavy_fluid = false;
-        self.changed = true;
-        for slot in self.slots.iter_mut().flatten() {
-            slot.kind = NONE;
-        }
+        self.environment.fluid = fluid;
+        self.constants.clear();
+        self.registry.forget_constants();
     }
 
     /// Sets the velocity field of the fluid.
+    ///
+    /// ```
+    /// use rapier3d_immersed::flow::Uniform;
+    /// use rapier3d_immersed::{Fluid, Immersion};
+    ///
+    /// let mut immersion = Immersion::new(Fluid::AIR);
+    /// immersion.set_flow(Uniform::new(2.0, 0.0, 0.0)); // a breeze along +x
+    /// ```
     pub fn set_flow(&mut self, flow: impl Flow + 'static) {
-        self.flow = Some(Arc::new(flow));
+        self.environment.flow = Some(Arc::new(flow));
+    }
+
+    /// Lets the fluid rest, but for its turbulence.
+    pub fn clear_flow(&mut self) {
+        self.environment.flow = None;
+        self.forget_flow();
     }
 
     /// Stirs the fluid: turbulence on top of the mean flow, another for each body.
     ///
     /// A [`Turbulence`](crate::turbulence::Turbulence) acts as the fluctuating velocity of the fluid
     /// that a body sees, with seed 0; [`TurbulentLayer`] chooses otherwise.
+    ///
+    /// ```
+    /// use rapier3d_immersed::turbulence::{Turbulence, TurbulenceState};
+    /// use rapier3d_immersed::{Fluid, Immersion};
+    ///
+    /// let mut immersion = Immersion::new(Fluid::AIR);
+    /// immersion.set_turbulence(Turbulence::Homogeneous(TurbulenceState {
+    ///     kinetic_energy: 0.1, // m²/s²
+    ///     dissipation: 0.05,   // m²/s³
+    /// }));
+    /// ```
     pub fn set_turbulence(&mut self, turbulence: impl Into<TurbulentLayer>) {
-        self.turbulence = Some(turbulence.into());
+        self.environment.turbulence = Some(turbulence.into());
     }
 
     /// Ends the turbulence.
     pub fn clear_turbulence(&mut self) {
-        self.turbulence = None;
-        for slot in self.slots.iter_mut().flatten() {
-            slot.flight.stirred = Stirred::default();
+        self.environment.turbulence = None;
+        for state in self.registry.iter_mut() {
+            state.flight.turbulence = Default::default();
         }
-        self.calm();
+        self.forget_flow();
     }
 
     /// Where nothing moves the fluid any more, bodies start afresh in it.
-    fn calm(&mut self) {
-        if self.flow.is_some() || self.turbulence.is_some() {
+    fn forget_flow(&mut self) {
+        if self.environment.moves() {
             return;
         }
-        for slot in self.slots.iter_mut().flatten() {
-            slot.flight.stream = Vector::ZERO;
-            slot.flight.flying = false;
+        for state in self.registry.iter_mut() {
+            state.flight.fluid_velocity = Default::default();
+            state.flight.continues = false;
         }
-    }
-
-    /// Lets the fluid rest, but for its turbulence.
-    pub fn clear_flow(&mut self) {
-        self.flow = None;
-        self.calm();
     }
 
     /// Seconds that the set has been stepped.
     pub fn time(&self) -> f64 {
-        self.time
+        self.environment.time
     }
 
     /// What the steps so far had to say; [`Immersion::clear_warnings`] forgets it. The same text
     /// goes to the `log` crate at level `warn`.
     pub fn warnings(&self) -> &[Warning] {
-        &self.warnings
+        &self.warnings.list
     }
 
     /// Forgets the warnings so far.
     pub fn clear_warnings(&mut self) {
-        self.warnings.clear();
+        self.warnings.list.clear();
     }
 
-    pub(super) fn warn(&mut self, warning: Warning) {
-        log::warn!("{warning}");
-        self.warnings.push(warning);
+    /// Steps the world, with the immersed bodies in their fluid.
+    pub fn step(&mut self, world: &mut PhysicsWorld) {
+        self.step_with_events(world, &(), &());
     }
 
-    fn index(&self, handle: RigidBodyHandle) -> Option<u32> {
-        let index = *self.lookup.get(handle.into_raw_parts().0 as usize)?;
-        let slot = self.slots.get(index as usize)?.as_ref()?;
-        (slot.handle == handle).then_some(index)
+    /// Steps the world with rapier's physics hooks and event handler.
+    pub fn step_with_events(
+        &mut self,
+        world: &mut PhysicsWorld,
+        hooks: &dyn PhysicsHooks,
+        events: &dyn EventHandler,
+    ) {
+        self.before_step(&mut RapierSets::of(world));
+        world.step_with_events(hooks, events);
+        self.after_step(&mut RapierSets::of(world));
     }
 
-    pub(super) fn slot_index(&self, handle: RigidBodyHandle) -> Option<usize> {
-        self.index(handle).map(|index| index as usize)
-    }
-
-    pub(super) fn slot(&self, handle: RigidBodyHandle) -> Option<&Slot> {
-        self.slots[self.slot_index(handle)?].as_ref()
-    }
-
-    pub(super) fn slot_mut(&mut self, handle: RigidBodyHandle) -> Option<&mut Slot> {
-        let index = self.slot_index(handle)?;
-        self.slots[index].as_mut()
-    }
-
-    /// Index of the kind of a body with this description and mass.
-    pub(super) fn kind_of(&mut self, description: u32, dry: &DryMass) -> Result<u32, Error> {
-        if let Some(index) = self
-            .kinds
-            .iter()
-            .rposition(|kind| kind.is(description, dry))
-        {
-            return Ok(index as u32);
+    /// To be called right before `PhysicsPipeline::step`, with [`Immersion::after_step`] right after
+    /// it. Sets each immersed body's force, torque and velocity so that rapier's step moves it as
+    /// the fluid would.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Fluid, Immersion, RapierSets};
+    ///
+    /// let mut world = PhysicsWorld::new(); // or the sets that an engine holds: see `RapierSets`
+    /// let mut immersion = Immersion::new(Fluid::AIR);
+    /// immersion.before_step(&mut RapierSets::of(&mut world));
+    /// world.step();
+    /// immersion.after_step(&mut RapierSets::of(&mut world));
+    /// ```
+    pub fn before_step(&mut self, sets: &mut RapierSets) {
+        let mut admission = admission::Admission {
+            enabled: self.enabled,
+            environment: &self.environment,
+            registry: &mut self.registry,
+            constants: &mut self.constants,
+            warnings: &mut self.warnings,
+        };
+        admission.admit(sets);
+        admission.sweep(sets);
+        self.environment.gravity = sets.gravity;
+        if self.enabled {
+            driver::before_step(&mut self.parts(), sets);
         }
-        let body = &self.descriptions[description as usize];
-        let kind = Kind::new(description, body, dry, &self.fluid)?;
-        self.heavy_fluid |= kind.heavy_fluid;
-        self.kinds.push(kind);
-        Ok(self.kinds.len() as u32 - 1)
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::coupling::original::Original;
+    /// To be called right after `PhysicsPipeline::step`: gives users' forces back and corrects the
+    /// velocities of bodies in contact.
+    pub fn after_step(&mut self, sets: &mut RapierSets) {
+        driver::after_step(&mut self.parts(), sets);
+        if self.enabled {
+            let dt = sets.integration_parameters.dt.max(0.0);
+            self.environment.time += f64::from(dt);
+            self.environment.steps += 1;
+        }
+    }
 
-    /// What the documentation says of memory.
-    #[test]
-    fn bytes_per_body() {
-        let kept = size_of::<Slot>() + size_of::<Original>() + 64;
-        assert!(kept <= 570, "{kept}");
-        assert!(size_of::<super::super::flight::Flyer>() <= 120);
+    fn parts(&mut self) -> StepParts<'_> {
+        StepParts {
+            integrator: self.integrator,
+            environment: &self.environment,
+            constants: &self.constants,
+            series: &self.series,
+            registry: &mut self.registry,
+            workspace: &mut self.workspace,
+        }
+    }
+
+    /// The forces on a body in the state that it has now, or `None` if it is not immersed (yet: a
+    /// body enters the fluid with the first step after its insertion). Gravity is that of the last
+    /// step.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let (ball, _) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::ball(0.1));
+    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, ball)?;
+    /// let mut immersion = Immersion::new(Fluid::WATER);
+    /// immersion.insert(ball, hydro);
+    /// immersion.step(&mut world);
+    /// let forces = immersion.forces(&world.bodies, ball).unwrap();
+    /// assert!((forces.buoyancy.force.y - 998.2 * 0.004189 * 9.81).abs() < 0.2); // ρVg, N
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    pub fn forces(&self, bodies: &RigidBodySet, handle: RigidBodyHandle) -> Option<ForceBreakdown> {
+        let state = self.registry.get(handle)?;
+        let body = bodies.get(handle)?;
+        readout::forces(state, &self.constants, &self.environment, body)
+    }
+
+    /// Multiplies the forces of a body's law, from the next step on (default 1): the control parameters c̃
+    /// of the pattern-driven method, as [`FreeBody::control`](crate::FreeBody::control). A series that the
+    /// body replays is stopped.
+    ///
+    /// Unknown handles, and factors that [`ForceFactors::check`] refuses, are ignored.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Fluid, ForceFactors, HydroProperties, Immersion};
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let leaf = ColliderBuilder::cuboid(0.0365, 0.00015, 0.021).density(300.0);
+    /// let (leaf, _) = world.insert(RigidBodyBuilder::dynamic(), leaf);
+    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaf)?;
+    /// let mut immersion = Immersion::new(Fluid::AIR);
+    /// immersion.insert(leaf, hydro);
+    /// immersion.set_control(leaf, ForceFactors { drag: 3.0, ..ForceFactors::ONE });
+    /// assert_eq!(immersion.control(leaf).unwrap().drag, 3.0);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    pub fn set_control(&mut self, handle: RigidBodyHandle, factors: ForceFactors) {
+        if let Some(state) = self.registry.get_mut(handle) {
+            state.control.set(factors);
+        }
+    }
+
+    /// The factors on the forces of a body's law in the last step.
+    pub fn control(&self, handle: RigidBodyHandle) -> Option<ForceFactors> {
+        self.registry.get(handle).map(|state| state.control.factors)
+    }
+
+    /// Lets a body replay a series from its beginning, at the next step; after its last entry that one
+    /// stays. The body must be under the law that the series was planned for
+    /// ([`Codebook::law`](crate::motion::Codebook)). A body that is held by a joint counts as touching:
+    /// its series begins when it breaks loose. Unknown handles are ignored.
+    pub fn replay(
+        &mut self,
+        handle: RigidBodyHandle,
+        series: &ControlSeries,
+        on_contact: OnContact,
+    ) {
+        let Some(index) = self.registry.index(handle) else {
+            return;
+        };
+        let controls = self.registry.states().iter().flatten();
+        let series = self
+            .series
+            .intern(series, controls.map(|state| &state.control));
+        if let Some(state) = self.registry.at_mut(index) {
+            state.control.replay(series, on_contact);
+        }
+    }
+
+    /// Stops the series that a body replays: it goes on under its own law. Nothing to stop is no error.
+    pub fn stop_replay(&mut self, handle: RigidBodyHandle) {
+        if let Some(state) = self.registry.get_mut(handle) {
+            state.control.stop();
+        }
+    }
+
+    /// How far a body has come in the series that it replays, s; `None` if it replays none.
+    pub fn replay_time(&self, handle: RigidBodyHandle) -> Option<f64> {
+        self.registry.get(handle)?.control.time()
+    }
+
+    /// What tests of the step look at.
+    #[cfg(test)]
+    pub(super) fn inside(&self) -> (&Registry, &ConstantsTable) {
+        (&self.registry, &self.constants)
     }
 }

@@ -1,38 +1,30 @@
-//! The bridge to rapier: the only place that reads and writes its bodies.
+//! The bridge to rapier: the only place that reads and writes its bodies for the fluid's sake.
+//!
+//! ```text
+//! Immersion (façade) ──► registry ──► body_state        which bodies, and what is kept of each
+//!     │                  shared_constants               what equal bodies share
+//!     │                  environment, control           the fluid; factors on forces
+//!     ├──► admission ──► saved_properties, from_rapier  bodies enter and leave the fluid
+//!     ├──► readout                                      forces on one body
+//!     └──► step::driver                                 prepare → sample → integrate → write back
+//! ```
 
-mod boarding;
-mod contact;
-mod emitter;
-mod flight;
-mod follow;
+mod admission;
+mod body_state;
+mod control;
+mod environment;
 mod from_rapier;
-mod handover;
 mod immersion;
-mod kind;
-mod membership;
-mod original;
-mod playback;
-mod played;
-mod player;
-mod players;
-pub mod preset;
+mod interning;
+mod rapier_sets;
 mod readout;
-mod scratch;
-mod sets;
-mod slot;
-#[cfg(feature = "serde-serialize")]
-mod snapshot;
+mod registry;
+mod saved_properties;
+mod shared_constants;
 mod step;
-mod stir;
-mod stream;
 mod warning;
-mod wing;
 
-pub use emitter::{Emitter, EmitterParams};
-pub use follow::{FollowParams, Followed};
+pub use control::OnContact;
 pub use immersion::Immersion;
-pub use playback::OnContact;
-pub use player::{AtContact, Drive, MotionPlayer};
-pub use players::{MotionPlayers, Playing};
-pub use sets::RapierSets;
+pub use rapier_sets::RapierSets;
 pub use warning::Warning;

@@ -60,3 +60,21 @@ impl std::fmt::Display for Warning {
         }
     }
 }
+
+/// The warnings so far.
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct Warnings {
+    pub list: Vec<Warning>,
+}
+
+impl Warnings {
+    /// Keeps a warning, and passes its text to the `log` crate at level `warn`.
+    pub fn push(&mut self, warning: Warning) {
+        log::warn!("{warning}");
+        self.list.push(warning);
+    }
+}

@@ -1,12 +1,13 @@
 //! The comparison behind the integrator's documentation: three designs on the same cases.
 
-use super::integrate::{Load, Motion, rotate, rotate_back, substep};
-use super::kirchhoff::{Blocks, Twist};
-use crate::body::{BodyConstants, DryMass, ImmersedBody, LawConstants};
+use super::constants::BodyConstants;
+use super::integrate::{Load, Motion, substep};
+use crate::body::{DryMass, ImmersedBody};
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
-use crate::hydro::viscous::Evaluate;
-use crate::hydro::viscous::physical::PhysicalConstants;
+use crate::hydro::viscous::PreparedLaw;
+use crate::hydro::viscous::terms::Evaluate;
+use crate::math::spatial::{Blocks, Twist, Wrench, rotate, rotate_back};
 use rapier3d::na::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use rapier3d::parry::shape::SharedShape;
 
@@ -72,9 +73,7 @@ fn fly(case: &Case, design: Design, h: f64) -> Option<Vector3<f64>> {
         inertia: Matrix3::from_diagonal(&Vector3::new(y + z, z + x, x + y)),
     };
     let constants = BodyConstants::new(&ImmersedBody::new(hydro), &dry, &case.fluid).unwrap();
-    let LawConstants::Physical(law) = &constants.law else {
-        unreachable!("the default law");
-    };
+    let law = &constants.law;
     let weight = (constants.dry.mass - constants.displaced_mass) / constants.mass;
     let load = Load {
         force: Vector3::new(0.0, 0.0, -9.81) * weight,
@@ -114,26 +113,26 @@ fn fly(case: &Case, design: Design, h: f64) -> Option<Vector3<f64>> {
 /// dν/dt of the equations of motion.
 fn acceleration(
     constants: &BodyConstants,
-    law: &PhysicalConstants<f64>,
+    law: &PreparedLaw<f64>,
     load: &Load<f64>,
     attitude: &Quaternion<f64>,
     velocity: &Twist<f64>,
-) -> (Twist<f64>, Blocks<f64>, Twist<f64>) {
+) -> (Twist<f64>, Blocks<f64>, Wrench<f64>) {
     let inertia = &constants.inertia;
     let mass = inertia.mass_matrix();
     let terms = law.terms(&inertia.center_velocity(velocity), &velocity.angular);
     let n = inertia.coupling_matrix(&mass, &terms, velocity);
-    let push = Twist {
-        linear: rotate_back(attitude, &load.force),
-        angular: Vector3::zeros(),
+    let applied = Wrench {
+        force: rotate_back(attitude, &load.force),
+        torque: Vector3::zeros(),
     };
-    let right = n.apply(velocity).add_scaled(&push, 1.0);
+    let right = n.apply(velocity) + applied;
     (mass.solve(&right), n, right)
 }
 
 fn implicit_euler(
     constants: &BodyConstants,
-    law: &PhysicalConstants<f64>,
+    law: &PreparedLaw<f64>,
     load: &Load<f64>,
     motion: &mut Motion<f64>,
     h: f64,
@@ -146,10 +145,7 @@ fn implicit_euler(
         m21: mass.m21 - n.m21 * h,
         m22: mass.m22 - n.m22 * h,
     };
-    let delta = system.solve(&Twist {
-        linear: right.linear * h,
-        angular: right.angular * h,
-    });
+    let delta = system.solve(&right.scaled(h));
     motion.velocity = motion.velocity.add_scaled(&delta, 1.0);
     motion.displacement += rotate(&motion.attitude, &motion.velocity.linear) * h;
     motion.attitude = turn(constants, &motion.attitude, &motion.velocity.angular, h);
@@ -167,7 +163,7 @@ fn turn(
 
 fn runge_kutta(
     constants: &BodyConstants,
-    law: &PhysicalConstants<f64>,
+    law: &PreparedLaw<f64>,
     load: &Load<f64>,
     motion: &mut Motion<f64>,
     h: f64,

@@ -1,9 +1,9 @@
 //! Why does it do that: every component of the force on one body.
 
-use super::integrate::Inviscid;
-use super::kirchhoff::{Twist, cross};
-use crate::body::{BodyConstants, LawConstants};
-use crate::hydro::viscous::{Evaluate, ViscousTerms};
+use super::constants::BodyConstants;
+use crate::hydro::viscous::ForceFactors;
+use crate::hydro::viscous::terms::{Evaluate, ViscousTerms};
+use crate::math::spatial::{Twist, Wrench, cross};
 use crate::math::to_real;
 use rapier3d::math::{Real, Vector};
 use rapier3d::na::{UnitQuaternion, Vector3};
@@ -84,12 +84,12 @@ pub struct ForceBreakdown {
 }
 
 impl ForceBreakdown {
-    /// With factors on drag, rotational lift and translational lift.
-    pub(crate) fn weighted(self, [drag, rotational, translational]: [f64; 3]) -> Self {
+    /// With factors on the law's forces.
+    pub(crate) fn scaled(self, factors: &ForceFactors<f64>) -> Self {
         Self {
-            drag: self.drag * drag,
-            rotational_lift: self.rotational_lift * rotational,
-            translational_lift: self.translational_lift * translational,
+            drag: self.drag * factors.drag,
+            rotational_lift: self.rotational_lift * factors.rotational_lift,
+            translational_lift: self.translational_lift * factors.translational_lift,
             ..self
         }
     }
@@ -113,15 +113,10 @@ impl BodyConstants {
         let (inertia, velocity, attitude) = (&self.inertia, &now.velocity, now.attitude);
         let center = inertia.center_velocity(velocity);
         let w = &velocity.angular;
-        let terms = match &self.law {
-            LawConstants::Inviscid => Evaluate::<f64>::terms(&Inviscid, &center, w),
-            LawConstants::Physical(law) => law.terms(&center, w),
-            LawConstants::Thesis(law) => law.terms(&center, w),
-            LawConstants::Stochastic(law) => law.terms(&center, w),
-        };
-        let world = |force: Vector3<f64>, torque: Vector3<f64>| ForceAndTorque {
-            force: to_real(attitude * force * self.mass),
-            torque: to_real(attitude * torque * (self.mass * self.length)),
+        let terms = self.law.terms(&center, w);
+        let world = |wrench: Wrench<f64>| ForceAndTorque {
+            force: to_real(attitude * wrench.force * self.mass),
+            torque: to_real(attitude * wrench.torque * (self.mass * self.length)),
         };
         let at_pressure = |part: fn(&ViscousTerms<f64>, &Vector3<f64>) -> Vector3<f64>| {
             let mut v = center;
@@ -133,18 +128,21 @@ impl BodyConstants {
             if terms.arm_moves {
                 torque.z = 0.0;
             }
-            world(force, torque + cross(&inertia.center(), &force))
+            let torque = torque + cross(&inertia.center, &force);
+            world(Wrench { force, torque })
         };
         let buoyancy = now.gravity * -self.displaced_mass;
         let arm = attitude * (self.axes.inverse() * self.buoyancy_arm);
         let speed = center.norm();
-        let (force, torque) = self.fluid_inertia(velocity, &now.rate);
         ForceBreakdown {
-            added_mass: world(force, torque),
+            added_mass: world(self.fluid_inertia(velocity, &now.rate)),
             drag: at_pressure(|t, v| -v.component_mul(&t.creeping) - v * t.drag),
             translational_lift: at_pressure(|t, v| cross(&t.translational_lift, v)),
             rotational_lift: at_pressure(|t, v| cross(&t.rotational_lift, v)),
-            damping: world(Vector3::zeros(), -terms.damping.component_mul(w)),
+            damping: world(Wrench {
+                force: Vector3::zeros(),
+                torque: -terms.damping.component_mul(w),
+            }),
             buoyancy: ForceAndTorque {
                 force: to_real(buoyancy),
                 torque: to_real(arm.cross(&buoyancy)),
@@ -164,14 +162,14 @@ impl BodyConstants {
 
     /// Force and torque of the fluid's own inertia, in the integrator's units: that of 𝕄 less that
     /// of the body itself.
-    fn fluid_inertia(&self, v: &Twist<f64>, rate: &Twist<f64>) -> (Vector3<f64>, Vector3<f64>) {
+    fn fluid_inertia(&self, v: &Twist<f64>, rate: &Twist<f64>) -> Wrench<f64> {
         let mass = self.inertia.mass_matrix();
         let turn = self.axes.inverse();
         let dry = turn.matrix() * self.dry.inertia * self.axes.matrix()
             / (self.mass * self.length * self.length);
-        let fluid = |v: &Twist<f64>| Twist {
-            linear: mass.m11 * v.linear + mass.m12 * v.angular - v.linear * self.inertia.dry_mass,
-            angular: mass.m21 * v.linear + mass.m22 * v.angular - dry * v.angular,
+        let fluid = |v: &Twist<f64>| Wrench {
+            force: mass.m11 * v.linear + mass.m12 * v.angular - v.linear * self.inertia.dry_mass,
+            torque: mass.m21 * v.linear + mass.m22 * v.angular - dry * v.angular,
         };
         let turned = cross(&v.angular, &v.linear) * self.inertia.per_length;
         let resisted = fluid(&Twist {
@@ -181,10 +179,10 @@ impl BodyConstants {
         let carried = fluid(v);
         let spinning = mass.m22 * v.angular - dry * v.angular;
         let felt = self.inertia.munk * self.inertia.per_length;
-        let force = cross(&carried.linear, &v.angular) * felt - resisted.linear;
-        let munk = cross(&carried.linear, &v.linear) + cross(&(mass.m21 * v.linear), &v.angular);
+        let force = cross(&carried.force, &v.angular) * felt - resisted.force;
+        let munk = cross(&carried.force, &v.linear) + cross(&(mass.m21 * v.linear), &v.angular);
         let torque =
-            cross(&spinning, &v.angular) * self.inertia.per_length + munk * felt - resisted.angular;
-        (force, torque)
+            cross(&spinning, &v.angular) * self.inertia.per_length + munk * felt - resisted.torque;
+        Wrench { force, torque }
     }
 }

@@ -1,28 +1,48 @@
 //! One free body in f64, without rapier: for training, calibration and tests.
 
+use super::constants::BodyConstants;
 use super::forces::{ForceBreakdown, Instant};
-use super::integrate::{Inviscid, Load, Motion, advance, rotate_back, substeps};
-use super::kirchhoff::Twist;
-use crate::Error;
-use crate::body::{BodyConstants, DryMass, ImmersedBody, LawConstants};
-use crate::dynamics::Integrator;
+use super::integrate::{Load, Motion, advance, substeps};
+use super::integrator::Integrator;
+use crate::body::{DryMass, ImmersedBody};
+use crate::error::Error;
 use crate::flow::FlowSample;
 use crate::fluid::Fluid;
-use crate::hydro::viscous::scaled::Scaled;
+use crate::hydro::viscous::ForceFactors;
+use crate::hydro::viscous::force_factors::Factored;
 use crate::math;
+use crate::math::spatial::{Twist, rotate_back};
 use rapier3d::na::{UnitQuaternion, Vector3};
 
 /// A body that flies alone: the same equations, law and integrator as in a rapier world, in f64.
 ///
 /// Positions are those of the center of mass; angular and linear velocities are in world axes.
+///
+/// ```
+/// use rapier3d_immersed::geometry::Surface;
+/// use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use rapier3d_immersed::{DryMass, Fluid, FreeBody, HydroProperties, ImmersedBody};
+///
+/// let leaf = Cuboid::new(Vector::new(0.0365, 0.00015, 0.021));
+/// let mass = DryMass::uniform(&Surface::from_shape(&leaf)?, 2.8e-4)?;
+/// let body = ImmersedBody::new(HydroProperties::from_shape(&leaf)?);
+/// let mut leaf = FreeBody::new(&body, &mass, &Fluid::AIR)?;
+/// leaf.set_orientation(UnitQuaternion::from_scaled_axis(Vector3::x() * 0.3));
+/// for _ in 0..120 {
+///     leaf.step(1.0 / 120.0, Vector3::y() * -9.81);
+/// }
+/// // It falls more slowly than 9.81 m/s after a second, and not straight down.
+/// assert!(leaf.linear_velocity().norm() < 2.0 && leaf.position.z.abs() > 0.05);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct FreeBody {
     constants: BodyConstants,
     /// How finely steps are integrated.
     pub integrator: Integrator,
-    /// c̃: factors on the law's drag, rotational lift and translational lift (default 1, 1, 1). Under
-    /// the thesis's law with coefficients (1, 1, 1) they are the thesis's control parameters.
-    pub control: [f64; 3],
+    /// Factors on the law's forces (default 1).
+    pub control: ForceFactors<f64>,
     /// Center of mass, m.
     pub position: Vector3<f64>,
     attitude: UnitQuaternion<f64>,
@@ -46,7 +66,7 @@ impl FreeBody {
         Ok(Self {
             constants,
             integrator: Integrator::default(),
-            control: [1.0; 3],
+            control: ForceFactors::default(),
             position: Vector3::zeros(),
             attitude,
             velocity: Twist::zero(0.0),
@@ -153,28 +173,16 @@ impl FreeBody {
             last: self.last,
         };
         motion.velocity.linear -= rotate_back(&motion.attitude, &stream);
-        let (inertia, factors) = (&c.inertia, self.control);
+        let inertia = &c.inertia;
         let count = substeps(inertia, &motion, &load, dt, &self.integrator);
         let (most, iterations) = (count as u32, self.integrator.iterations);
-        let m = &mut motion;
+        let law = &Factored {
+            law: &c.law,
+            factors: self.control,
+        };
         // One body does not need the path for symmetric ones.
-        match &c.law {
-            LawConstants::Inviscid => {
-                advance::<false, _, _>(inertia, &Inviscid, &load, m, dt, count, most, iterations);
-            }
-            LawConstants::Physical(law) => {
-                let law = &Scaled { law, factors };
-                advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
-            }
-            LawConstants::Thesis(law) => {
-                let law = &Scaled { law, factors };
-                advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
-            }
-            LawConstants::Stochastic(law) => {
-                let law = &Scaled { law, factors };
-                advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
-            }
-        }
+        let m = &mut motion;
+        advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
         self.attitude = UnitQuaternion::new_normalize(motion.attitude);
         self.velocity = motion.velocity;
         self.velocity.linear += rotate_back(self.attitude.quaternion(), &stream);
@@ -190,17 +198,14 @@ impl FreeBody {
             rate: self.rate,
             gravity,
         };
-        self.constants.forces(&instant).weighted(self.control)
+        self.constants.forces(&instant).scaled(&self.control)
     }
 
     /// Momentum of body and fluid in plate axes, kg·m/s and kg·m²/s.
     fn momentum(&self) -> (Vector3<f64>, Vector3<f64>) {
         let p = self.constants.inertia.mass_matrix().apply(&self.velocity);
         let scale = self.constants.mass;
-        (
-            p.linear * scale,
-            p.angular * (scale * self.constants.length),
-        )
+        (p.force * scale, p.torque * (scale * self.constants.length))
     }
 
     /// Kinetic energy of the body and of the fluid at rest that it sets in motion, J.

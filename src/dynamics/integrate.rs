@@ -39,75 +39,15 @@
 //! heavy fluid along; implicit Euler is stable but damps flutter away. The midpoint scheme is stable
 //! everywhere and within a percent for what falls in air at 60 steps/s.
 
-use super::kirchhoff::{Twist, choose, cross};
-use crate::body::InertiaConstants;
-use crate::hydro::viscous::{Evaluate, ViscousTerms, safe_inverse};
+use super::constants::InertiaConstants;
+use super::integrator::Integrator;
+use crate::hydro::viscous::terms::{Evaluate, safe_inverse};
 use crate::math::Scalar;
+use crate::math::spatial::{
+    Twist, Wrench, cross, dot, norm, normalized, rotate, rotate_back, select_lt,
+    select_quaternion_lt, turned,
+};
 use rapier3d::na::{Quaternion, Vector3};
-
-/// How finely, and how exactly, a step is integrated.
-///
-/// # How many substeps
-///
-/// A regime is more sensitive than a path. At four times the step of the measured falls
-/// ([`fidelity`](crate::training::fidelity); plates at 60 steps/s), against their own result at the fine
-/// step (tumbling plate 15.8, 12.0 cm/s, 15.1 rad/s; fluttering plate 8.9 cm/s; 92.0 % of the discs):
-///
-/// | `max_travel`, `max_turn` | plate 1/8: drift, descent, spin | 1/14: descent | discs | substeps |
-/// |---|---|---|---|---|
-/// | 0.6, 0.6 | 0.9, 8.8, 0.7 (flutters) | 5.0 | 77.1 % | 1.2 |
-/// | 0.4, 0.2 | 15.9, 11.7, 15.1 | 8.9 | 89.2 % | 2.0 |
-/// | **0.3, 0.2** | 15.8, 11.9, 15.1 | 8.9 | 91.8 % | 2.2 |
-/// | 0.3, 0.6 | 13.0, 12.7, 12.2 | 7.7 | 89.9 % | |
-/// | 0.15, 0.1 | 15.8, 12.1, 15.1 | 8.9 | 91.8 % | 4.0 |
-///
-/// (The last column is the mean over 10 000 leaves that fall through air at 60 steps/s; each substep
-/// takes some 25 ns of each leaf's step.) At the ends of its swings a plate is slow and the flow around
-/// it changes fastest, so it is the turning of the body's *course* that `max_turn` limits there: without
-/// that the fluttering plate needs twice the substeps. Under 0.3, 0.2 with u̇ itself extrapolated the
-/// chaotic plate 1/11 flutters.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
-pub struct Integrator {
-    /// A substep turns the body, and its course through the fluid, by at most this angle, rad (default
-    /// 0.2).
-    pub max_turn: f64,
-    /// A substep moves the body by at most this many chords (default 0.3; at 0.6 the step costs less, but
-    /// plates at 60 steps/s flutter that should tumble).
-    pub max_travel: f64,
-    /// Never more substeps than this in one step (default 16): accuracy gives way, stability does
-    /// not depend on it.
-    pub max_substeps: u32,
-    /// Evaluations of N per substep (default 1). Each further one re-freezes N at the middle that
-    /// the last solve found; in the limit momentum and energy are conserved together. In an ideal
-    /// fluid, where that is what counts, at least 8 are made.
-    pub iterations: u32,
-}
-
-impl Integrator {
-    /// Substeps of a tenth of a chord with two evaluations each: for falls that are compared, labeled or
-    /// trained with.
-    pub const FINE: Self = Self {
-        max_turn: 0.2,
-        max_travel: 0.1,
-        max_substeps: 64,
-        iterations: 2,
-    };
-}
-
-impl Default for Integrator {
-    fn default() -> Self {
-        Self {
-            max_turn: 0.2,
-            max_travel: 0.3,
-            max_substeps: 16,
-            iterations: 1,
-        }
-    }
-}
 
 /// The moving part of a body: velocities in plate axes, relative to the fluid.
 #[derive(Clone, Copy, Debug)]
@@ -146,75 +86,6 @@ pub(crate) struct Load<T> {
     pub spinning: bool,
 }
 
-/// `q v q*` for a unit quaternion.
-#[inline(always)]
-pub(crate) fn rotate<T: Scalar>(q: &Quaternion<T>, v: &Vector3<T>) -> Vector3<T> {
-    let a = q.coords.xyz();
-    let t = cross(&a, v);
-    let t = t + t;
-    v + t * q.coords.w + cross(&a, &t)
-}
-
-/// `q*`
-#[inline(always)]
-pub(crate) fn conjugate<T: Scalar>(q: &Quaternion<T>) -> Quaternion<T> {
-    let q = &q.coords;
-    Quaternion::new(q.w, -q.x, -q.y, -q.z)
-}
-
-/// `q* v q` for a unit quaternion.
-#[inline(always)]
-pub(crate) fn rotate_back<T: Scalar>(q: &Quaternion<T>, v: &Vector3<T>) -> Vector3<T> {
-    rotate(&conjugate(q), v)
-}
-
-/// `q · cay(2a)`: the attitude turned by the body-axes rotation whose half tangent is `a`. As long as
-/// `q` is.
-#[inline(always)]
-fn turned<T: Scalar>(q: &Quaternion<T>, a: &Vector3<T>) -> Quaternion<T> {
-    let (q, x, y, z) = (&q.coords, a.x, a.y, a.z);
-    let one = x.lit(1.0);
-    let per = one / (one + norm2(a)).root();
-    Quaternion::new(
-        (q.w - q.x * x - q.y * y - q.z * z) * per,
-        (q.x + q.w * x + q.y * z - q.z * y) * per,
-        (q.y + q.w * y + q.z * x - q.x * z) * per,
-        (q.z + q.w * z + q.x * y - q.y * x) * per,
-    )
-}
-
-/// `q` in the lanes where `a < b`, `other` elsewhere.
-#[inline(always)]
-fn either<T: Scalar>(q: &Quaternion<T>, a: T, b: T, other: &Quaternion<T>) -> Quaternion<T> {
-    let (q, other) = (&q.coords, &other.coords);
-    let axis = choose(&q.xyz(), a, b, &other.xyz());
-    Quaternion::new(q.w.where_less(a, b, other.w), axis.x, axis.y, axis.z)
-}
-
-/// Removes what rounding has done to the length.
-#[inline(always)]
-fn normalized<T: Scalar>(q: &Quaternion<T>) -> Quaternion<T> {
-    let q = q.coords;
-    let norm = (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z).root();
-    Quaternion::from_vector(q * (norm.lit(1.0) / norm))
-}
-
-/// The law of a body in an ideal fluid.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Inviscid;
-
-impl<T: Scalar> Evaluate<T> for Inviscid {
-    #[inline(always)]
-    fn least_iterations(&self) -> u32 {
-        8
-    }
-
-    #[inline(always)]
-    fn terms(&self, u: &Vector3<T>, _w: &Vector3<T>) -> ViscousTerms<T> {
-        ViscousTerms::none(u.x)
-    }
-}
-
 /// What moves less than this many chords in a step may change its course as it likes.
 const IDLE: f64 = 0.02;
 
@@ -227,29 +98,19 @@ pub(crate) fn substeps<T: Scalar>(
     dt: T,
     integrator: &Integrator,
 ) -> T {
-    let half = dt * dt.lit(0.5);
+    let half = dt * dt.constant(0.5);
     let speed = norm(&motion.velocity.linear);
     let spin = norm(&motion.velocity.angular) * inertia.per_length;
     // The course turns too: at the ends of a swing the body is slow, and the flow changes fast.
     let felt = norm(&motion.rate.linear);
-    let course = speed + felt * half + inertia.chord * dt.lit(IDLE) / dt;
-    let turns = spin.larger(felt / course) * dt.lit(1.0 / integrator.max_turn);
+    let course = speed + felt * half + inertia.chord * dt.constant(IDLE) / dt;
+    let turns = spin.max(felt / course) * dt.constant(1.0 / integrator.max_turn);
     // A body that starts from rest will have moved by then.
     let way = speed + norm(&load.force) * half;
-    let travels = way / (inertia.chord * dt.lit(integrator.max_travel));
-    let wanted = dt * turns.larger(travels);
-    let most = dt.lit(f64::from(integrator.max_substeps.max(1)));
-    wanted.ceiling().larger(dt.lit(1.0)).smaller(most)
-}
-
-#[inline(always)]
-fn norm2<T: Scalar>(v: &Vector3<T>) -> T {
-    v.x * v.x + v.y * v.y + v.z * v.z
-}
-
-#[inline(always)]
-fn norm<T: Scalar>(v: &Vector3<T>) -> T {
-    norm2(v).root()
+    let travels = way / (inertia.chord * dt.constant(integrator.max_travel));
+    let wanted = dt * turns.max(travels);
+    let most = dt.constant(f64::from(integrator.max_substeps.max(1)));
+    wanted.ceil().max(dt.constant(1.0)).min(most)
 }
 
 /// Advances `motion` by one substep `h`, which may be zero.
@@ -262,7 +123,7 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     h: T,
     iterations: u32,
 ) {
-    let (zero, half, one) = (h.lit(0.0), h.lit(0.5), h.lit(1.0));
+    let (zero, half, one) = (h.constant(0.0), h.constant(0.5), h.constant(1.0));
     let start = motion.velocity;
     let ahead = motion
         .rate
@@ -290,49 +151,49 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
             &inertia.center_velocity(&middle),
             &(middle.angular - fluid_spin),
         );
-        let mut push = Twist {
-            linear: rotate_back(&attitude, &load.force),
-            angular: Vector3::repeat(zero),
+        let mut applied = Wrench {
+            force: rotate_back(&attitude, &load.force),
+            torque: Vector3::repeat(zero),
         };
         if load.turning {
             let buoyancy = rotate_back(&attitude, &load.buoyancy);
-            push.angular =
+            applied.torque =
                 rotate_back(&attitude, &load.torque) + cross(&load.buoyancy_arm, &buoyancy);
         }
         if load.spinning {
-            push.angular += terms.damping.component_mul(&fluid_spin);
+            applied.torque += terms.damping.component_mul(&fluid_spin);
         }
 
         // z: decay per substep of the motion as it is, and of the rotation about the axis where it
         // is fastest. θ is just implicit enough that such a decay does not overshoot zero.
         let u = &middle.linear;
         let inertial =
-            u.x * u.x * inertia.m11_xx + u.y * u.y * inertia.m11_yy + u.z * u.z * inertia.m11_zz;
+            u.x * u.x * inertia.m11.m11 + u.y * u.y * inertia.m11.m22 + u.z * u.z * inertia.m11.m33;
         let (s, k) = (&terms.creeping, &terms.damping);
-        let along_x = (s.x * inertia.per_m11_xx).larger(k.x * inertia.per_m22_xx);
-        let along_y = (s.y * inertia.per_m11_yy).larger(k.y * inertia.per_m22_yy);
-        let along_z = (s.z * inertia.per_m11_zz).larger(k.z * inertia.per_m22_zz);
-        let slow = along_x.larger(along_y).larger(along_z);
-        let pressure = terms.drag * norm2(u) * safe_inverse(inertial);
+        let along_x = (s.x * inertia.per_m11.x).max(k.x * inertia.per_m22.x);
+        let along_y = (s.y * inertia.per_m11.y).max(k.y * inertia.per_m22.y);
+        let along_z = (s.z * inertia.per_m11.z).max(k.z * inertia.per_m22.z);
+        let slow = along_x.max(along_y).max(along_z);
+        let pressure = terms.drag * dot(u, u) * safe_inverse(inertial);
         let z = h * (pressure + slow);
-        let theta = half.larger(one - safe_inverse(z));
-        delta = inertia.increment::<SYMMETRIC>(&terms, &start, &middle, &push, h, theta);
+        let theta = half.max(one - safe_inverse(z));
+        delta = inertia.increment::<SYMMETRIC>(&terms, &start, &middle, &applied, h, theta);
         middle = start.add_scaled(&delta, half);
     }
 
     motion.velocity = start.add_scaled(&delta, one);
     // A lane that is done has h = 0 and keeps its history.
-    let done = h.lit(1e-12);
-    let per_h = one / h.larger(done);
+    let done = h.constant(1e-12);
+    let per_h = one / h.max(done);
     let old = motion.rate;
     let mut rate = delta.scaled(per_h);
     rate.linear += cross(&middle.angular, &middle.linear) * inertia.per_length;
-    motion.rate = old.where_less(h, done, &rate);
+    motion.rate = old.select_lt(h, done, &rate);
     let per = (one + one) / (motion.last + h);
-    let per = zero.where_less(motion.last, done, per);
+    let per = zero.select_lt(motion.last, done, per);
     let trend = motion.rate.add_scaled(&old, -one).scaled(per);
-    motion.trend = motion.trend.where_less(h, done, &trend);
-    motion.last = motion.last.where_less(h, done, h);
+    motion.trend = motion.trend.select_lt(h, done, &trend);
+    motion.last = motion.last.select_lt(h, done, h);
 
     let a = middle.angular * (half * h * inertia.per_length);
     let moved = (middle.linear + cross(&a, &middle.linear))
@@ -340,7 +201,7 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     motion.displacement += rotate(&motion.attitude, &moved);
     // Turning by nothing would still round.
     let turned = turned(&motion.attitude, &a);
-    motion.attitude = either(&motion.attitude, h, done, &turned);
+    motion.attitude = select_quaternion_lt(&motion.attitude, h, done, &turned);
 }
 
 /// Advances `motion` by `dt` in `count` substeps, of which `most` is the largest over the lanes.
@@ -358,11 +219,11 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
 ) {
     let start = *motion;
     let h = dt / count;
-    let (zero, one) = (dt.lit(0.0), dt.lit(1.0));
+    let (zero, one) = (dt.constant(0.0), dt.constant(1.0));
     let mut done = zero;
     for _ in 0..most {
         // Lanes that need fewer substeps than their neighbours stand still.
-        let h = h.where_less(done, count, zero);
+        let h = h.select_lt(done, count, zero);
         substep::<SYMMETRIC, T, L>(inertia, law, load, motion, h, iterations);
         done += one;
     }
@@ -370,42 +231,29 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     // the comparison, and the body coasts through this step.
     let size =
         norm(&motion.velocity.linear) + norm(&motion.velocity.angular) + norm(&motion.displacement);
-    let limit = dt.lit(1e6);
+    let limit = dt.constant(1e6);
     let resting = Twist::zero(zero);
     let moved = &motion.displacement;
     let coasting = rotate(&start.attitude, &start.velocity.linear) * dt;
-    motion.displacement = choose(moved, size, limit, &coasting);
-    motion.velocity = motion.velocity.where_less(size, limit, &start.velocity);
-    motion.rate = motion.rate.where_less(size, limit, &resting);
-    motion.trend = motion.trend.where_less(size, limit, &resting);
+    motion.displacement = select_lt(moved, size, limit, &coasting);
+    motion.velocity = motion.velocity.select_lt(size, limit, &start.velocity);
+    motion.rate = motion.rate.select_lt(size, limit, &resting);
+    motion.trend = motion.trend.select_lt(size, limit, &resting);
     let attitude = normalized(&motion.attitude);
-    motion.attitude = either(&attitude, size, limit, &start.attitude);
+    motion.attitude = select_quaternion_lt(&attitude, size, limit, &start.attitude);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::BodyConstants;
+    use crate::dynamics::constants::BodyConstants;
+    use crate::hydro::viscous::terms::ViscousTerms;
     use crate::{DryMass, Fluid, HydroProperties, ImmersedBody};
     use rapier3d::math::Vector;
-    use rapier3d::na::{Matrix3, UnitQuaternion};
+    use rapier3d::na::Matrix3;
     use rapier3d::parry::shape::Cuboid;
 
-    /// The lanes' own rotation against nalgebra's.
-    #[test]
-    fn rotation_agrees_with_nalgebra() {
-        let q = UnitQuaternion::from_euler_angles(0.3, -1.0, 2.0);
-        let raw = Quaternion::new(q.w, q.i, q.j, q.k);
-        let v = Vector3::new(1.0, -2.0, 0.5);
-        assert!((rotate(&raw, &v) - q * v).norm() < 1e-14);
-        assert!((rotate_back(&raw, &v) - q.inverse() * v).norm() < 1e-14);
-        let small = Vector3::new(0.01, -0.02, 0.03);
-        let cayley = q * UnitQuaternion::from_quaternion(Quaternion::new(1.0, 0.01, -0.02, 0.03));
-        let turned = UnitQuaternion::new_unchecked(turned(&raw, &small));
-        assert!(turned.angle_to(&cayley) < 1e-7);
-    }
-
-    /// A law that has gone mad.
+    /// A law that returns NaN.
     struct NotANumber;
 
     impl Evaluate<f64> for NotANumber {
@@ -456,7 +304,7 @@ mod tests {
             (motion.rate, motion.trend),
             (Twist::zero(0.0), Twist::zero(0.0))
         );
-        advance::<false, _, _>(inertia, &Inviscid, &load, &mut motion, 0.01, 1.0, 1, 1);
+        advance::<false, _, _>(inertia, &constants.law, &load, &mut motion, 0.01, 1.0, 1, 1);
         assert_ne!(motion.velocity, before);
     }
 }

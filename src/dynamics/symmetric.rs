@@ -14,10 +14,10 @@
 //! momentum (with `j·p` added along z), l the lift less c, all of them times θh. A diagonal plus a
 //! skew matrix has the inverse `(adj D + l lᵀ + [D l]×) / (det D + l·D l)`.
 
-use super::kirchhoff::{Twist, cross, inverse3, transform};
-use crate::body::InertiaConstants;
-use crate::hydro::viscous::ViscousTerms;
+use super::constants::InertiaConstants;
+use crate::hydro::viscous::terms::ViscousTerms;
 use crate::math::Scalar;
+use crate::math::spatial::{Twist, Wrench, cross, inverse3, transform};
 use rapier3d::na::{Matrix3, Vector3};
 
 impl<T: Scalar> InertiaConstants<T> {
@@ -28,20 +28,20 @@ impl<T: Scalar> InertiaConstants<T> {
         terms: &ViscousTerms<T>,
         start: &Twist<T>,
         middle: &Twist<T>,
-        load: &Twist<T>,
+        load: &Wrench<T>,
         h: T,
         theta: T,
     ) -> Twist<T> {
         let (u, w) = (&middle.linear, &middle.angular);
         let share = self.munk * self.per_length;
         let p = Vector3::new(
-            (self.m11_xx - self.dry_mass) * u.x * share,
-            (self.m11_yy - self.dry_mass) * u.y * share,
-            (self.m11_zz - self.dry_mass) * u.z * share,
+            (self.m11.m11 - self.dry_mass) * u.x * share,
+            (self.m11.m22 - self.dry_mass) * u.y * share,
+            (self.m11.m33 - self.dry_mass) * u.z * share,
         );
         let c = w * (self.dry_mass * self.per_length);
-        let g =
-            Vector3::new(self.m22_xx * w.x, self.m22_yy * w.y, self.m22_zz * w.z) * self.per_length;
+        let g = Vector3::new(self.m22.m11 * w.x, self.m22.m22 * w.y, self.m22.m33 * w.z)
+            * self.per_length;
         let lift = terms.translational_lift + terms.rotational_lift;
         let resistance = terms.creeping.map(|s| terms.drag + s);
         let (a, b) = (terms.arm.y, -terms.arm.x);
@@ -49,27 +49,27 @@ impl<T: Scalar> InertiaConstants<T> {
         // Right-hand side: h (Nν₀ + Q), the torque about the pressure point.
         let (u0, w0) = (&start.linear, &start.angular);
         let v0 = Vector3::new(u0.x, u0.y, u0.z + a * w0.x + b * w0.y);
-        let turned = cross(&p, w0) - cross(&c, u0) + load.linear;
+        let turned = cross(&p, w0) - cross(&c, u0) + load.force;
         let f = cross(&lift, &v0) - resistance.component_mul(&v0) + turned;
         let gyroscopic = cross(&p, u0) + cross(&g, w0) - terms.damping.component_mul(w0);
-        let t = gyroscopic + load.angular;
+        let t = gyroscopic + load.torque;
         let f = f * h;
         let t = Vector3::new(t.x - a * turned.z, t.y - b * turned.z, t.z) * h;
 
         let scale = theta * h;
         let c = c * scale;
         let l = lift * scale - c;
-        let d = Vector3::new(self.m11_xx, self.m11_yy, self.m11_zz) + resistance * scale;
+        let d = Vector3::new(self.m11.m11, self.m11.m22, self.m11.m33) + resistance * scale;
         let p = p * scale;
         let g = g * scale;
         let gz = g.z + a * p.x + b * p.y;
         let k = terms.damping * scale;
-        let mz = self.m11_zz;
+        let mz = self.m11.m33;
 
         // Inverse of the first block, times its determinant.
         let dl = d.component_mul(&l);
         let (yz, zx, xy) = (d.y * d.z, d.z * d.x, d.x * d.y);
-        let per = h.lit(1.0) / (d.x * yz + l.x * dl.x + l.y * dl.y + l.z * dl.z);
+        let per = h.constant(1.0) / (d.x * yz + l.x * dl.x + l.y * dl.y + l.z * dl.z);
         let (lxy, lyz, lzx) = (l.x * l.y, l.y * l.z, l.z * l.x);
         let inverse = Matrix3::new(
             (yz + l.x * l.x) * per,
@@ -109,15 +109,15 @@ impl<T: Scalar> InertiaConstants<T> {
         let y = |x: T, y: T, z: T| x * xy12 + y * cxb + z * zy12;
         let z = |x: T, y: T| y * p.x - x * p.y;
         let pivot = Matrix3::new(
-            self.m22_xx + k.x + ma * a - x(q.m11, q.m12, q.m13),
+            self.m22.m11 + k.x + ma * a - x(q.m11, q.m12, q.m13),
             gz + ma * b - y(q.m11, q.m12, q.m13),
             -g.y - z(q.m11, q.m12),
             ma * b - gz - x(q.m21, q.m22, q.m23),
-            self.m22_yy + k.y + mb * b - y(q.m21, q.m22, q.m23),
+            self.m22.m22 + k.y + mb * b - y(q.m21, q.m22, q.m23),
             g.x - z(q.m21, q.m22),
             g.y - x(q.m31, q.m32, q.m33),
             -g.x - y(q.m31, q.m32, q.m33),
-            self.m22_zz + k.z - z(q.m31, q.m32),
+            self.m22.m33 + k.z - z(q.m31, q.m32),
         );
         let dw = transform(&inverse3(&pivot), &(t - transform(q, &f)));
         let rest = Vector3::new(
@@ -136,10 +136,11 @@ impl<T: Scalar> InertiaConstants<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Fluid;
-    use crate::body::{BodyConstants, DryMass, ImmersedBody, LawConstants};
+    use crate::body::{DryMass, ImmersedBody};
+    use crate::dynamics::constants::BodyConstants;
+    use crate::fluid::Fluid;
     use crate::hydro::HydroProperties;
-    use crate::hydro::viscous::Evaluate;
+    use crate::hydro::viscous::terms::Evaluate;
     use rapier3d::parry::shape::SharedShape;
 
     /// Against the general path, which builds the 6×6 matrix from its definition.
@@ -156,17 +157,18 @@ mod tests {
         for fluid in [Fluid::AIR, Fluid::WATER] {
             let constants = BodyConstants::new(&body, &dry, &fluid).unwrap();
             assert!(constants.symmetric);
-            let LawConstants::Physical(law) = &constants.law else {
-                unreachable!("the default law");
-            };
             let twist = |i: f64| Twist {
                 linear: Vector3::new((1.1 * i).sin(), (2.3 * i).cos(), (0.7 * i).sin()),
                 angular: Vector3::new((3.1 * i).cos(), (1.9 * i).sin(), (0.3 * i).cos()),
             };
             for i in 0..50 {
                 let i = f64::from(i);
-                let (start, middle, load) = (twist(i), twist(i + 0.1), twist(2.0 * i));
-                let terms = law.terms(&middle.linear, &middle.angular);
+                let (start, middle) = (twist(i), twist(i + 0.1));
+                let load = Wrench {
+                    force: twist(2.0 * i).linear,
+                    torque: twist(2.0 * i).angular,
+                };
+                let terms = constants.law.terms(&middle.linear, &middle.angular);
                 let args = (&terms, &start, &middle, &load);
                 let [general, written] = [false, true].map(|symmetric| {
                     let (terms, start, middle, load) = args;

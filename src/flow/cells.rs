@@ -82,26 +82,26 @@ impl Node for Pair {
 /// The largest whole number that is not larger than x, |x| ≤ [`FAR`], as the lattice's own.
 #[inline(always)]
 fn floor<T: Scalar>(x: T) -> T {
-    let shift = x.lit(12_582_912.0);
+    let shift = x.constant(12_582_912.0);
     let near = (x + shift) - shift;
-    (near - x.lit(1.0)).where_less(x, near, near)
+    (near - x.constant(1.0)).select_lt(x, near, near)
 }
 
 impl<T: Scalar> Axis<T> {
     /// The node below `x` and the position between it and the next; never out of bounds, whatever x is.
     #[inline(always)]
     fn locate(&self, x: T) -> [T; 2] {
-        let (zero, far) = (x.lit(0.0), x.lit(FAR.into()));
+        let (zero, far) = (x.constant(0.0), x.constant(FAR.into()));
         let mut x = (x - self.origin) * self.per_spacing;
         if let Some([nodes, per_node]) = self.period {
             let turns = x * per_node;
-            let turns = turns.where_less(turns.absolute(), far, zero);
+            let turns = turns.select_lt(turns.abs(), far, zero);
             x = (turns - floor(turns)) * nodes;
         }
         // NaN becomes zero.
-        let x = x.where_less(zero, x, zero);
-        let x = x.smaller(self.end);
-        let below = floor(x).smaller(self.last);
+        let x = x.select_lt(zero, x, zero);
+        let x = x.min(self.end);
+        let below = floor(x).min(self.last);
         [below, x - below]
     }
 }

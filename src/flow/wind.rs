@@ -165,20 +165,20 @@ impl SpectralWind {
     /// both, at `height`.
     #[inline(always)]
     fn profile<T: Scalar>(&self, height: T) -> Profile<T> {
-        let lit = |value: Real| height.lit(value.into());
-        let (zero, one, lowest) = (lit(0.0), lit(1.0), lit(self.roughness));
+        let constant = |value: Real| height.constant(value.into());
+        let (zero, one, lowest) = (constant(0.0), constant(1.0), constant(self.roughness));
         // What is not above the lowest height, NaN too, counts as it; infinity as very high.
-        let above = height.where_less(lowest, height, lowest);
-        let above = above.smaller(lit(Real::MAX));
-        let over = (above * lit(self.per_roughness)).smaller(lit(Real::MAX));
-        let raw = over.logarithm().larger(zero) * lit(self.per_log);
-        let growth = (lit(self.per_log) / above).where_less(lowest, height, zero);
-        let (cap, speed) = (lit(self.cap), lit(self.mean_speed as Real));
+        let above = height.select_lt(lowest, height, lowest);
+        let above = above.min(constant(Real::MAX));
+        let over = (above * constant(self.per_roughness)).min(constant(Real::MAX));
+        let raw = over.ln().max(zero) * constant(self.per_log);
+        let growth = (constant(self.per_log) / above).select_lt(lowest, height, zero);
+        let (cap, speed) = (constant(self.cap), constant(self.mean_speed as Real));
         Profile {
             speed: speed * raw,
             shear: speed * growth,
-            strength: raw.smaller(cap),
-            growth: growth * one.where_less(raw, cap, zero),
+            strength: raw.min(cap),
+            growth: growth * one.select_lt(raw, cap, zero),
         }
     }
 

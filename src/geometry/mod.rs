@@ -2,13 +2,12 @@
 
 #[cfg_attr(not(feature = "bake"), allow(dead_code))]
 pub(crate) mod bisect;
-mod carlson;
-pub mod ellipsoid;
+mod ellipsoid;
 mod graded;
 mod panels;
 pub(crate) mod quality;
-pub mod sheet;
-pub mod surface;
+mod sheet;
+mod surface;
 mod tessellate;
 
 pub use ellipsoid::Ellipsoid;

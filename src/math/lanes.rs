@@ -12,13 +12,24 @@ pub(crate) const MOST_LANES: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lanes<S: Simd>(S::f32s);
 
-/// A vector and one more number, or a quaternion (x, y, z, w): what four lanes are filled with at
-/// once.
+/// Four numbers that lanes are filled with at once: a vector and a zero, or a quaternion (x, y, z, w).
 pub(crate) type Row = [f32; 4];
+
+/// A vector as a row.
+#[inline(always)]
+pub(crate) fn row(v: Vector) -> Row {
+    [v.x, v.y, v.z, 0.0]
+}
+
+/// The vector of a row.
+#[inline(always)]
+pub(crate) fn vector([x, y, z, _]: Row) -> Vector {
+    Vector::new(x, y, z)
+}
 
 /// Work that is done in lanes.
 pub(crate) trait OnLanes {
-    /// Does it. Has to be inlined, and so has all that it calls: only then may it use the
+    /// Does the work. It has to be inlined, and so has all that it calls: only then may it use the
     /// instructions.
     fn run<S: Simd>(self, simd: S);
 }
@@ -227,43 +238,43 @@ operator!(Div div, DivAssign div_assign);
 
 impl<S: Simd> Scalar for Lanes<S> {
     #[inline(always)]
-    fn lit(self, value: f64) -> Self {
+    fn constant(self, value: f64) -> Self {
         Self::splat(self.0.token(), value as f32)
     }
     #[inline(always)]
-    fn exponential(self) -> Self {
+    fn exp(self) -> Self {
         exponential(self)
     }
     #[inline(always)]
-    fn logarithm(self) -> Self {
+    fn ln(self) -> Self {
         logarithm(self)
     }
     #[inline(always)]
-    fn all_from(self, limit: f64) -> bool {
-        self.0.simd_ge(self.lit(limit).0).all_true()
+    fn all_ge(self, limit: f64) -> bool {
+        self.0.simd_ge(self.constant(limit).0).all_true()
     }
     #[inline(always)]
-    fn larger(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         Self(self.0.max(other.0))
     }
     #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
+    fn min(self, other: Self) -> Self {
         Self(self.0.min(other.0))
     }
     #[inline(always)]
-    fn where_less(self, a: Self, b: Self, other: Self) -> Self {
+    fn select_lt(self, a: Self, b: Self, other: Self) -> Self {
         Self(a.0.simd_lt(b.0).select(self.0, other.0))
     }
     #[inline(always)]
-    fn root(self) -> Self {
+    fn sqrt(self) -> Self {
         Self(self.0.sqrt())
     }
     #[inline(always)]
-    fn absolute(self) -> Self {
+    fn abs(self) -> Self {
         Self(self.0.abs())
     }
     #[inline(always)]
-    fn ceiling(self) -> Self {
+    fn ceil(self) -> Self {
         Self(self.0.ceil())
     }
 }
@@ -331,27 +342,27 @@ mod tests {
                 check("×", x * y, |a, b| a * b);
                 check("÷", x / y, |a, b| a / b);
                 check("negative", -x, |a, _| -a);
-                check("root", x.absolute().root(), |a, _| a.abs().sqrt());
-                check("ceiling", x.ceiling(), |a, _| a.ceil());
-                check("larger", x.larger(y), f32::max);
-                check("smaller", x.smaller(y), f32::min);
-                check("where_less", x.where_less(x, y, y), f32::min);
-                check("constant", x.lit(0.1), |_, _| 0.1);
-                check("exponential", x.exponential(), |a, _| a.exponential());
-                let normal = x.absolute().larger(x.lit(f32::MIN_POSITIVE.into()));
-                check("logarithm", normal.logarithm(), |a, _| {
-                    a.abs().max(f32::MIN_POSITIVE).logarithm()
+                check("square root", x.abs().sqrt(), |a, _| a.abs().sqrt());
+                check("ceiling", x.ceil(), |a, _| a.ceil());
+                check("maximum", x.max(y), f32::max);
+                check("minimum", x.min(y), f32::min);
+                check("select_lt", x.select_lt(x, y, y), f32::min);
+                check("constant", x.constant(0.1), |_, _| 0.1);
+                check("exponential", x.exp(), |a, _| Scalar::exp(a));
+                let normal = x.abs().max(x.constant(f32::MIN_POSITIVE.into()));
+                check("logarithm", normal.ln(), |a, _| {
+                    Scalar::ln(a.abs().max(f32::MIN_POSITIVE))
                 });
                 let least = (0..Lanes::<S>::COUNT).fold(f32::MAX, |least, i| least.min(a[i]));
-                let whole = x.absolute().smaller(x.lit(600.0)).ceiling();
+                let whole = x.abs().min(x.constant(600.0)).ceil();
                 let index = Lanes::index(simd, [whole, whole, whole], [10, 100]);
                 for (lane, number) in whole.numbers().iter().enumerate() {
                     assert_eq!(index[lane], 111 * *number as u32);
                     let wanted = a[lane].abs().min(600.0).ceil();
                     assert!(lane >= Lanes::<S>::COUNT || *number == wanted);
                 }
-                assert!(x.all_from(least.into()));
-                assert!(!x.all_from(f64::from(least.next_up())));
+                assert!(x.all_ge(least.into()));
+                assert!(!x.all_ge(f64::from(least.next_up())));
                 let most = (0..Lanes::<S>::COUNT).fold(1.0, |most, i| a[i].max(most));
                 assert_eq!(x.largest(1.0), most);
             }

@@ -1,13 +1,13 @@
 //! Scalars, lanes, and the border between the f64 of what is computed once and the `Real` of rapier's world.
 
 mod lanes;
-mod scalar;
+pub(crate) mod scalar;
+pub(crate) mod spatial;
 
 #[cfg(test)]
 pub(crate) use lanes::NARROW;
-pub(crate) use lanes::{Lanes, MOST_LANES, OnLanes, Row, dispatch};
-pub use scalar::Scalar;
-pub(crate) use scalar::scalar_struct;
+pub(crate) use lanes::{Lanes, MOST_LANES, OnLanes, Row, dispatch, row, vector};
+pub(crate) use scalar::{Scalar, scalar_struct};
 
 use rapier3d::math::{Pose, Rotation, Vector};
 use rapier3d::na::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};

@@ -3,18 +3,21 @@
 //!
 //! Lanes are made of registers that not every machine has. That this one has them is *proved* by a
 //! token of size zero, which only the detection at run time hands out and which every value carries
-//! on. Nothing can therefore be made of nothing: a constant is asked of a value, `x.lit(2.0)`, and is
+//! on. Nothing can therefore be made of nothing: a constant is asked of a value, `x.constant(2.0)`, and is
 //! of its kind; and nalgebra's zeros and ones, which need no value, are out of reach, so that products
-//! of matrices are written out.
+//! of matrices are written out ([`spatial`](super::spatial)).
 
+use super::Lanes;
+use fearless_simd::Simd;
 use rapier3d::na::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
+use rapier3d::na::{Matrix3, Vector3};
 use std::fmt::Debug;
 use std::ops::Neg;
 
 /// A real number, or several side by side.
 ///
 /// Sums, differences, products, quotients and roots are rounded correctly, `f32` and lanes have the
-/// same [`exponential`] and [`logarithm`]: a body's bits do not depend on how many are beside it.
+/// same [`Scalar::exp`] and [`Scalar::ln`]: a body's bits do not depend on how many are beside it.
 pub trait Scalar:
     Copy
     + Debug
@@ -27,60 +30,60 @@ pub trait Scalar:
     + ClosedDivAssign
 {
     /// A constant, of the kind that `self` is; in every lane.
-    fn lit(self, value: f64) -> Self;
+    fn constant(self, value: f64) -> Self;
     /// `e^self`; but for f64, arguments beyond ±87 count as ±87.
-    fn exponential(self) -> Self;
+    fn exp(self) -> Self;
     /// Natural logarithm; `self` must be positive, finite and not subnormal.
-    fn logarithm(self) -> Self;
+    fn ln(self) -> Self;
     /// Whether no lane is below `limit` (or NaN).
-    fn all_from(self, limit: f64) -> bool;
+    fn all_ge(self, limit: f64) -> bool;
     /// `self` where it is larger than `other`, in each lane. What NaN gives is left open.
-    fn larger(self, other: Self) -> Self;
+    fn max(self, other: Self) -> Self;
     /// `self` where it is smaller than `other`, in each lane. What NaN gives is left open.
-    fn smaller(self, other: Self) -> Self;
+    fn min(self, other: Self) -> Self;
     /// `self` in the lanes where `a < b`, `other` elsewhere (also where `a` or `b` is NaN).
-    fn where_less(self, a: Self, b: Self, other: Self) -> Self;
+    fn select_lt(self, a: Self, b: Self, other: Self) -> Self;
     /// Square root; `self` must not be negative.
-    fn root(self) -> Self;
+    fn sqrt(self) -> Self;
     /// Absolute value.
-    fn absolute(self) -> Self;
+    fn abs(self) -> Self;
     /// The next whole number that is not less.
-    fn ceiling(self) -> Self;
+    fn ceil(self) -> Self;
 }
 
-/// Of f64 and f32: what the standard library has.
+/// The methods that f64 and f32 have in the standard library.
 macro_rules! standard {
     ($type:ident) => {
         #[inline(always)]
-        fn lit(self, value: f64) -> Self {
+        fn constant(self, value: f64) -> Self {
             value as $type
         }
         #[inline(always)]
-        fn all_from(self, limit: f64) -> bool {
+        fn all_ge(self, limit: f64) -> bool {
             self >= limit as $type
         }
         #[inline(always)]
-        fn larger(self, other: Self) -> Self {
+        fn max(self, other: Self) -> Self {
             self.max(other)
         }
         #[inline(always)]
-        fn smaller(self, other: Self) -> Self {
+        fn min(self, other: Self) -> Self {
             self.min(other)
         }
         #[inline(always)]
-        fn where_less(self, a: Self, b: Self, other: Self) -> Self {
+        fn select_lt(self, a: Self, b: Self, other: Self) -> Self {
             if a < b { self } else { other }
         }
         #[inline(always)]
-        fn root(self) -> Self {
+        fn sqrt(self) -> Self {
             self.sqrt()
         }
         #[inline(always)]
-        fn absolute(self) -> Self {
+        fn abs(self) -> Self {
             self.abs()
         }
         #[inline(always)]
-        fn ceiling(self) -> Self {
+        fn ceil(self) -> Self {
             self.ceil()
         }
     };
@@ -89,11 +92,11 @@ macro_rules! standard {
 impl Scalar for f64 {
     standard!(f64);
     #[inline(always)]
-    fn exponential(self) -> Self {
+    fn exp(self) -> Self {
         self.exp()
     }
     #[inline(always)]
-    fn logarithm(self) -> Self {
+    fn ln(self) -> Self {
         self.ln()
     }
 }
@@ -101,11 +104,11 @@ impl Scalar for f64 {
 impl Scalar for f32 {
     standard!(f32);
     #[inline(always)]
-    fn exponential(self) -> Self {
+    fn exp(self) -> Self {
         exponential(self)
     }
     #[inline(always)]
-    fn logarithm(self) -> Self {
+    fn ln(self) -> Self {
         logarithm(self)
     }
 }
@@ -147,13 +150,13 @@ const LN_2: [f64; 2] = [0.693_359_375, -2.121_944_4e-4];
 /// library (Moshier 1989) for |r| ≤ ½ ln 2.
 #[inline(always)]
 pub(super) fn exponential<T: Binary32>(x: T) -> T {
-    let x = x.larger(x.lit(-87.0)).smaller(x.lit(87.0));
+    let x = x.max(x.constant(-87.0)).min(x.constant(87.0));
     // So large a sum has no room for a fraction: that rounds.
-    let shift = x.lit(12_582_912.0);
-    let shifted = x * x.lit(std::f64::consts::LOG2_E) + shift;
+    let shift = x.constant(12_582_912.0);
+    let shifted = x * x.constant(std::f64::consts::LOG2_E) + shift;
     let n = shifted - shift;
-    let r = x - n * x.lit(LN_2[0]) - n * x.lit(LN_2[1]);
-    let mut p = x.lit(1.987_569_1e-4);
+    let r = x - n * x.constant(LN_2[0]) - n * x.constant(LN_2[1]);
+    let mut p = x.constant(1.987_569_1e-4);
     for coefficient in [
         1.398_199_9e-3,
         8.333_452e-3,
@@ -161,9 +164,9 @@ pub(super) fn exponential<T: Binary32>(x: T) -> T {
         1.666_666_5e-1,
         0.5,
     ] {
-        p = p * r + x.lit(coefficient);
+        p = p * r + x.constant(coefficient);
     }
-    let fraction = p * r * r + r + x.lit(1.0);
+    let fraction = p * r * r + r + x.constant(1.0);
     fraction * T::power_of_two(shifted)
 }
 
@@ -172,33 +175,122 @@ pub(super) fn exponential<T: Binary32>(x: T) -> T {
 #[inline(always)]
 pub(super) fn logarithm<T: Binary32>(x: T) -> T {
     let (m, shifted) = x.mantissa_and_exponent();
-    let n = shifted - x.lit(8_388_608.0 + 127.0);
-    let one = x.lit(1.0);
+    let n = shifted - x.constant(8_388_608.0 + 127.0);
+    let one = x.constant(1.0);
     let f = m - one;
     let s = f / (m + one);
     let s2 = s * s;
-    let mut p = x.lit(2.0 / 9.0);
+    let mut p = x.constant(2.0 / 9.0);
     for coefficient in [2.0 / 7.0, 2.0 / 5.0, 2.0 / 3.0] {
-        p = p * s2 + x.lit(coefficient);
+        p = p * s2 + x.constant(coefficient);
     }
-    let small = p * s2 * s + n * x.lit(LN_2[1]);
-    (s + s) + small + n * x.lit(LN_2[0])
+    let small = p * s2 * s + n * x.constant(LN_2[1]);
+    (s + s) + small + n * x.constant(LN_2[0])
 }
 
-/// Defines a struct whose fields are all one scalar type: computed in f64, kept in f32, used in lanes.
-macro_rules! scalar_struct {
-    ($(#[$meta:meta])* $vis:vis struct $name:ident { $($(#[$field_meta:meta])* $field:ident,)+ }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        #[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
-        $vis struct $name<T> {
-            $($(#[$field_meta])* pub(crate) $field: T,)+
+/// What a field of a [`scalar_struct`] can be: a scalar, a vector or a matrix.
+pub(crate) trait Field {
+    /// The scalar that it is made of.
+    type Component: Copy;
+    /// The same field made of another scalar.
+    type Of<U: Copy + Debug + PartialEq + 'static>;
+
+    /// Component `i`, in an order of the field's own.
+    fn component(&self, i: usize) -> Self::Component;
+    /// The field of which `of` gives the components.
+    fn from_components<U: Copy + Debug + PartialEq + 'static>(
+        of: impl Fn(usize) -> U,
+    ) -> Self::Of<U>;
+}
+
+/// The three kinds of field, for one type of component.
+macro_rules! fields_of {
+    ($type:ident) => {
+        impl Field for $type {
+            type Component = $type;
+            type Of<U: Copy + Debug + PartialEq + 'static> = U;
+            #[inline(always)]
+            fn component(&self, _i: usize) -> $type {
+                *self
+            }
+            #[inline(always)]
+            fn from_components<U: Copy + Debug + PartialEq + 'static>(
+                of: impl Fn(usize) -> U,
+            ) -> U {
+                of(0)
+            }
         }
 
-        impl $name<f32> {
+        impl Field for Vector3<$type> {
+            type Component = $type;
+            type Of<U: Copy + Debug + PartialEq + 'static> = Vector3<U>;
+            #[inline(always)]
+            fn component(&self, i: usize) -> $type {
+                self[i]
+            }
+            #[inline(always)]
+            fn from_components<U: Copy + Debug + PartialEq + 'static>(
+                of: impl Fn(usize) -> U,
+            ) -> Vector3<U> {
+                Vector3::new(of(0), of(1), of(2))
+            }
+        }
+
+        impl Field for Matrix3<$type> {
+            type Component = $type;
+            type Of<U: Copy + Debug + PartialEq + 'static> = Matrix3<U>;
+            #[inline(always)]
+            fn component(&self, i: usize) -> $type {
+                self[(i / 3, i % 3)]
+            }
+                    #[inline(always)]
+                    #[rustfmt::skip]
+            fn from_components<U: Copy + Debug + PartialEq + 'static>(
+                        of: impl Fn(usize) -> U,
+                    ) -> Matrix3<U> {
+                        Matrix3::new(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8))
+                    }
+        }
+    };
+}
+fields_of!(f64);
+fields_of!(f32);
+
+/// A field in the nearest f32.
+#[inline]
+pub(crate) fn rounded<F: Field<Component = f64>>(field: &F) -> F::Of<f32> {
+    F::from_components(|i| field.component(i) as f32)
+}
+
+/// A field of one body in every lane.
+#[inline(always)]
+pub(crate) fn splat<S: Simd, F: Field<Component = f32>>(simd: S, field: &F) -> F::Of<Lanes<S>> {
+    F::from_components(|i| Lanes::splat(simd, field.component(i)))
+}
+
+/// A field of one body in each lane.
+#[inline(always)]
+pub(crate) fn gather<'a, S: Simd, F: Field<Component = f32> + 'a>(
+    simd: S,
+    of: impl Fn(usize) -> &'a F,
+) -> F::Of<Lanes<S>> {
+    F::from_components(|i| Lanes::from_fn(simd, |lane| of(lane).component(i)))
+}
+
+/// Defines a struct that is generic over the scalar `T` of its fields (each is `T`, `Vector3<T>` or
+/// `Matrix3<T>`): computed in f64, kept in f32, used in lanes.
+macro_rules! scalar_struct {
+    ($(#[$meta:meta])* $vis:vis struct $name:ident<T> { $($(#[$field_meta:meta])* $field:ident: $type:ty,)+ }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        $vis struct $name<T> {
+            $($(#[$field_meta])* pub(crate) $field: $type,)+
+        }
+
+        impl $name<f64> {
             /// The nearest constants in f32.
-            pub(crate) fn rounded(constants: &$name<f64>) -> Self {
-                Self { $($field: constants.$field as f32,)+ }
+            pub(crate) fn rounded(&self) -> $name<f32> {
+                $name { $($field: $crate::math::scalar::rounded(&self.$field),)+ }
             }
         }
 
@@ -206,13 +298,13 @@ macro_rules! scalar_struct {
             /// The same constants in every lane.
             #[inline(always)]
             pub(crate) fn splat(simd: S, constants: &$name<f32>) -> Self {
-                Self { $($field: $crate::math::Lanes::splat(simd, constants.$field),)+ }
+                Self { $($field: $crate::math::scalar::splat(simd, &constants.$field),)+ }
             }
 
             /// The constants of one body in each lane.
             #[inline(always)]
             pub(crate) fn gather<'a>(simd: S, of: impl Fn(usize) -> &'a $name<f32>) -> Self {
-                Self { $($field: $crate::math::Lanes::from_fn(simd, |lane| of(lane).$field),)+ }
+                Self { $($field: $crate::math::scalar::gather(simd, |lane| &of(lane).$field),)+ }
             }
         }
     };
@@ -230,13 +322,13 @@ mod tests {
             let x = i as f32 * 0.5;
             let exact = f64::from(x).exp();
             assert!(
-                (f64::from(x.exponential()) / exact - 1.0).abs() < 2e-7,
+                (f64::from(Scalar::exp(x)) / exact - 1.0).abs() < 2e-7,
                 "exp {x}"
             );
             let y = exact as f32;
             let ln = f64::from(y).ln();
             assert!(
-                (f64::from(y.logarithm()) - ln).abs() <= 2e-7 * ln.abs(),
+                (f64::from(Scalar::ln(y)) - ln).abs() <= 2e-7 * ln.abs(),
                 "ln {y}"
             );
         }

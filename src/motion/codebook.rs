@@ -2,7 +2,7 @@
 
 use super::pattern::Pattern;
 use crate::Error;
-use crate::hydro::ViscousLaw;
+use crate::hydro::viscous::{ForceFactors, ViscousLaw};
 use rand::{Rng, RngExt};
 
 /// A stretch of a series in which one pattern is meant to be seen.
@@ -18,8 +18,18 @@ pub struct Dwell {
     pub from: usize,
 }
 
-/// Control parameters over time: c̃, factors on the law's drag, rotational lift and translational
-/// lift, each held for `interval`.
+/// Control parameters c̃ over time, factors on the forces of a body's law, each held for `interval`.
+///
+/// ```
+/// use rapier3d_immersed::ForceFactors;
+/// use rapier3d_immersed::motion::ControlSeries;
+///
+/// let braked = ForceFactors { drag: 3.0, ..ForceFactors::ONE };
+/// let series = ControlSeries::new(0.5, vec![ForceFactors::ONE, braked], Vec::new())?;
+/// assert_eq!(series.at(0.2), ForceFactors::ONE);
+/// assert_eq!(series.at(7.0), braked); // the last entry stays
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -27,7 +37,7 @@ pub struct Dwell {
 )]
 pub struct ControlSeries {
     interval: f64,
-    controls: Vec<[f32; 3]>,
+    controls: Vec<ForceFactors>,
     dwells: Vec<Dwell>,
 }
 
@@ -43,7 +53,11 @@ impl ControlSeries {
     /// [`Error::InvalidParameter`], [`Error::OutOfRange`] or [`Error::WrongLength`] if the interval is
     /// not positive, there is no entry, an entry is not finite, has a negative drag or is larger than
     /// 100, or the dwells do not begin at 0 and ascend.
-    pub fn new(interval: f64, controls: Vec<[f32; 3]>, dwells: Vec<Dwell>) -> Result<Self, Error> {
+    pub fn new(
+        interval: f64,
+        controls: Vec<ForceFactors>,
+        dwells: Vec<Dwell>,
+    ) -> Result<Self, Error> {
         let series = Self {
             interval,
             controls,
@@ -61,15 +75,10 @@ impl ControlSeries {
             1.0,
             MOST_ENTRIES,
         )?;
-        for [drag, rotational, translational] in &self.controls {
-            Error::check_range("drag control", f64::from(*drag), 0.0, MOST_CONTROL)?;
-            for lift in [rotational, translational] {
-                Error::check_range(
-                    "lift control",
-                    f64::from(*lift),
-                    -MOST_CONTROL,
-                    MOST_CONTROL,
-                )?;
+        for factors in &self.controls {
+            Error::check_range("drag control", factors.drag.into(), 0.0, MOST_CONTROL)?;
+            for lift in [factors.rotational_lift, factors.translational_lift] {
+                Error::check_range("lift control", lift.into(), -MOST_CONTROL, MOST_CONTROL)?;
             }
         }
         let mut next = 0;
@@ -93,7 +102,7 @@ impl ControlSeries {
     }
 
     /// The entries.
-    pub fn controls(&self) -> &[[f32; 3]] {
+    pub fn controls(&self) -> &[ForceFactors] {
         &self.controls
     }
 
@@ -109,7 +118,7 @@ impl ControlSeries {
 
     /// c̃ at a time since the beginning, s; the last entry goes on for ever.
     #[inline]
-    pub fn at(&self, time: f64) -> [f32; 3] {
+    pub fn at(&self, time: f64) -> ForceFactors {
         // A time that is a whole number of intervals, less rounding, is the next entry's.
         let index = (time / self.interval + 1e-6).max(0.0) as usize;
         self.controls[index.min(self.controls.len() - 1)]
@@ -246,17 +255,18 @@ mod tests {
             dwell(Pattern::Zigzag, 2),
             dwell(Pattern::Zigzag, 5),
         ];
-        let controls = (0..8).map(|i| [i as f32, 0.5, -1.0]).collect();
+        let controls = (0..8).map(|i| ForceFactors::from([i as f32, 0.5, -1.0]));
+        let controls = controls.collect();
         ControlSeries::new(0.1, controls, dwells).unwrap()
     }
 
     #[test]
     fn entries_are_held() {
         let series = series();
-        assert_eq!(series.at(-1.0)[0], 0.0);
-        assert_eq!(series.at(0.05)[0], 0.0);
-        assert_eq!(series.at(0.1 + 0.2)[0], 3.0);
-        assert_eq!(series.at(7.0)[0], 7.0);
+        assert_eq!(series.at(-1.0).drag, 0.0);
+        assert_eq!(series.at(0.05).drag, 0.0);
+        assert_eq!(series.at(0.1 + 0.2).drag, 3.0);
+        assert_eq!(series.at(7.0).drag, 7.0);
         assert_eq!(series.sequence(), [Pattern::SteadyDescent, Pattern::Zigzag]);
         assert_eq!(series.dwell_start(0.49), 0.2);
         assert_eq!(series.dwell_start(9.0), 0.5);
@@ -268,7 +278,7 @@ mod tests {
     #[test]
     fn bad_series_are_refused() {
         let good = series();
-        let make = |interval, controls: Vec<[f32; 3]>, from: [usize; 2]| {
+        let make = |interval, controls: Vec<ForceFactors>, from: [usize; 2]| {
             let dwells = from.map(|from| Dwell {
                 pattern: Pattern::Zigzag,
                 from,
@@ -280,9 +290,9 @@ mod tests {
         assert!(make(0.0, controls.clone(), [0, 3]).is_err());
         assert!(make(f64::NAN, controls.clone(), [0, 3]).is_err());
         assert!(make(0.1, Vec::new(), [0, 3]).is_err());
-        assert!(make(0.1, vec![[-1.0, 0.0, 0.0]; 4], [0, 3]).is_err());
-        assert!(make(0.1, vec![[1.0, f32::NAN, 0.0]; 4], [0, 3]).is_err());
-        assert!(make(0.1, vec![[1.0, 1e9, 0.0]; 4], [0, 3]).is_err());
+        assert!(make(0.1, vec![[-1.0, 0.0, 0.0].into(); 4], [0, 3]).is_err());
+        assert!(make(0.1, vec![[1.0, f32::NAN, 0.0].into(); 4], [0, 3]).is_err());
+        assert!(make(0.1, vec![[1.0, 1e9, 0.0].into(); 4], [0, 3]).is_err());
         assert!(make(0.1, controls.clone(), [1, 3]).is_err());
         assert!(make(0.1, controls.clone(), [0, 0]).is_err());
         assert!(make(0.1, controls, [0, 8]).is_err());
@@ -307,7 +317,7 @@ mod tests {
         }
         // Rightly framed, but beyond reason.
         let mut bad = book;
-        bad.series[0].controls[3] = [f32::INFINITY, 0.0, 0.0];
+        bad.series[0].controls[3].drag = f32::INFINITY;
         assert!(Codebook::from_bytes(&bad.to_bytes()).is_err());
         bad.series[0] = series();
         bad.series[1].dwells[1].from = 99;

@@ -15,7 +15,7 @@ pub mod turning;
 pub use classify::{Classifier, Observation};
 pub use codebook::{Codebook, ControlSeries, Dwell};
 pub use graph::MotionGraph;
-pub use numbers::{Numbers, Outline};
+pub use numbers::{DimensionlessNumbers, Outline};
 pub use pattern::{Pattern, Regime};
 pub use phase_diagram::PhaseDiagram;
 pub use sketch::Sketch;

@@ -17,7 +17,7 @@ pub enum Outline {
 
 /// Dimensionless numbers of one body in one fluid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Numbers {
+pub struct DimensionlessNumbers {
     /// L: minor axis or chord, twice the shorter in-plane half extent, m.
     pub length: f64,
     /// t: mean thickness, volume over planform area, m.
@@ -27,7 +27,7 @@ pub struct Numbers {
     /// U0 = √(|ρ_s/ρ_f − 1| g t), m/s (thesis § 3.3.1).
     pub u0: f64,
     /// Re = U0 L/ν. The measured phase diagram has another Reynolds number: that of the mean descent
-    /// ([`Numbers::reynolds_at`]).
+    /// ([`DimensionlessNumbers::reynolds_at`]).
     pub reynolds_u0: f64,
     /// I*: moment of inertia about the long axis over that of a fluid body.
     pub i_star: f64,
@@ -37,8 +37,8 @@ pub struct Numbers {
     pub kinematic_viscosity: f64,
 }
 
-impl Numbers {
-    /// Numbers of a body of this shape and mass under gravity of size `gravity`, m/s².
+impl DimensionlessNumbers {
+    /// Dimensionless numbers of a body of this shape and mass under gravity of size `gravity`, m/s².
     ///
     /// # Errors
     /// [`Error::InvalidParameter`] if mass, gravity or the shape's extents are not positive and
@@ -73,7 +73,7 @@ impl Numbers {
         )
     }
 
-    /// Numbers from a length L, a thickness t (m), a density (kg/m³) and gravity (m/s²).
+    /// Dimensionless numbers from a length L, a thickness t (m), a density (kg/m³) and gravity (m/s²).
     ///
     /// # Errors
     /// [`Error::InvalidParameter`] names what is not positive and finite.
@@ -151,7 +151,8 @@ mod tests {
     #[test]
     fn the_yen_coin() {
         let water = Fluid::new(1000.0, 0.89e-6).unwrap();
-        let coin = Numbers::new(Outline::Round, 0.02, 0.0015, 2700.0, &water, 9.81).unwrap();
+        let coin =
+            DimensionlessNumbers::new(Outline::Round, 0.02, 0.0015, 2700.0, &water, 9.81).unwrap();
         assert!((coin.i_star / 1.0e-2 - 1.0).abs() < 0.01, "{coin:?}");
         assert!((coin.reynolds_u0 / 3.55e3 - 1.0).abs() < 0.01, "{coin:?}");
     }
@@ -171,7 +172,7 @@ mod tests {
             center: Vector3::zeros(),
             inertia: Matrix3::from_diagonal(&inertia),
         };
-        let numbers = Numbers::of(&hydro, &dry, &Fluid::AIR, 9.81).unwrap();
+        let numbers = DimensionlessNumbers::of(&hydro, &dry, &Fluid::AIR, 9.81).unwrap();
         assert_eq!(numbers.outline, Outline::Rectangular);
         let fluid = PI * f64::from(Fluid::AIR.density()) * a.powi(4) / 32.0 * s;
         let exact = inertia.x / fluid;
@@ -183,7 +184,7 @@ mod tests {
     #[test]
     fn an_ellipse_is_round_and_its_thickness_the_mean() {
         let (hydro, dry) = thin_ellipsoid([0.035, 0.02, 0.0002], 800.0).unwrap();
-        let numbers = Numbers::of(&hydro, &dry, &Fluid::AIR, 9.81).unwrap();
+        let numbers = DimensionlessNumbers::of(&hydro, &dry, &Fluid::AIR, 9.81).unwrap();
         assert_eq!(numbers.outline, Outline::Round);
         // V/A of an ellipsoid is 4/3 of its semi-axis; the mesh is a few percent coarse.
         assert!((numbers.thickness / (4.0 / 3.0 * 0.0002) - 1.0).abs() < 0.05);
@@ -194,12 +195,14 @@ mod tests {
     #[test]
     fn the_estimated_descent_balances_the_weight() {
         let syrup = Fluid::new(1000.0, 0.1).unwrap();
-        let disc = Numbers::new(Outline::Round, 0.01, 0.0005, 2700.0, &syrup, 9.81).unwrap();
+        let disc =
+            DimensionlessNumbers::new(Outline::Round, 0.01, 0.0005, 2700.0, &syrup, 9.81).unwrap();
         let stokes = PI * 1700.0 * 9.81 * 0.0005 * 0.01 / (32.0 * 100.0);
         let fall = disc.broadside_descent();
         assert!((fall / stokes - 1.0).abs() < 0.02, "{fall} {stokes}");
         let water =
-            Numbers::new(Outline::Round, 0.02, 0.0015, 2700.0, &Fluid::WATER, 9.81).unwrap();
+            DimensionlessNumbers::new(Outline::Round, 0.02, 0.0015, 2700.0, &Fluid::WATER, 9.81)
+                .unwrap();
         let fall = water.broadside_descent();
         assert!((fall / (water.u0 * (2.0f64 / 1.17).sqrt()) - 1.0).abs() < 1e-6);
     }
@@ -207,8 +210,14 @@ mod tests {
     #[test]
     fn impossible_bodies_are_refused() {
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(Numbers::new(Outline::Round, bad, 1e-3, 1.0, &Fluid::AIR, 9.81).is_err());
-            assert!(Numbers::new(Outline::Round, 1e-2, 1e-3, 1.0, &Fluid::AIR, bad).is_err());
+            assert!(
+                DimensionlessNumbers::new(Outline::Round, bad, 1e-3, 1.0, &Fluid::AIR, 9.81)
+                    .is_err()
+            );
+            assert!(
+                DimensionlessNumbers::new(Outline::Round, 1e-2, 1e-3, 1.0, &Fluid::AIR, bad)
+                    .is_err()
+            );
         }
     }
 }

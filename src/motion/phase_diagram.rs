@@ -109,7 +109,7 @@ pub struct Boundary {
 
 impl PhaseDiagram {
     /// The cases of thesis § 3.6 with Re and I* **as printed**. Those of paper and leaf do not
-    /// follow from the thesis's own formulas ([`Numbers`](crate::motion::Numbers) does).
+    /// follow from the thesis's own formulas ([`DimensionlessNumbers`](crate::motion::DimensionlessNumbers) does).
     pub const THESIS_CASES: [Case; 3] = [
         Case {
             name: "yen coin in water",

@@ -7,6 +7,7 @@
 //! needed.
 
 use crate::dynamics::FreeBody;
+use crate::hydro::viscous::ForceFactors;
 use crate::math::to_f64;
 use rapier3d::na::{Matrix2, Matrix3, Vector2, Vector3};
 
@@ -43,11 +44,11 @@ impl EnergyObjective {
         random: Vector3<f64>,
         [kolmogorov, dissipation, frequency]: [f64; 3],
     ) -> Self {
-        let previous = Vector3::from(body.control);
+        let previous = Vector3::from(<[f64; 3]>::from(body.control));
         let mut ahead = body.clone();
-        ahead.control = [0.0; 3];
+        ahead.control = [0.0; 3].into();
         ahead.step(interval, gravity);
-        ahead.control = [1.0; 3];
+        ahead.control = ForceFactors::default();
         let forces = ahead.forces(gravity);
         let gain = |force| to_f64(force) * (interval / body.mass());
         let gains = Matrix3::from_columns(&[

@@ -5,7 +5,7 @@
 //! refined where neighbours disagree; [`Subspaces`] answer which pattern a point belongs to.
 //! [`Clusters`] are the thesis's own classification, beside the direct
 //! [`Classifier`](crate::motion::Classifier). A [`Planner`] makes series of coefficients of them, which a
-//! body in rapier replays ([`Immersion::play`](crate::Immersion::play)):
+//! body in rapier replays ([`Immersion::replay`](crate::Immersion::replay)):
 //!
 //! ```
 //! use rapier3d_immersed::motion::{Classifier, MotionGraph, Pattern};
@@ -41,7 +41,7 @@
 //! world.bodies[leaf].set_rotation(experiment.release.rotation(&hydro), true);
 //! let mut immersion = Immersion::new(Fluid::AIR);
 //! immersion.insert(leaf, hydro);
-//! immersion.play(leaf, &plan.series, OnContact::Restart);
+//! immersion.replay(leaf, &plan.series, OnContact::Restart);
 //! for _ in 0..60 {
 //!     immersion.step(&mut world);
 //! }
@@ -61,6 +61,7 @@ mod file;
 pub mod grid;
 pub mod plan;
 pub mod planner;
+mod sketch_control;
 pub mod subspace;
 pub mod sweep;
 
@@ -70,5 +71,6 @@ pub use experiment::{Experiment, Release, thin_ellipsoid};
 pub use grid::{Axis, Grid};
 pub use plan::{DwellReport, Plan, PlannerParams};
 pub use planner::Planner;
+pub use sketch_control::{FollowParams, Followed};
 pub use subspace::Subspaces;
 pub use sweep::{Sample, Sweep};

@@ -20,6 +20,7 @@ use super::plan::{DwellReport, Plan, PlannerParams};
 use super::subspace::Subspaces;
 use crate::Error;
 use crate::dynamics::FreeBody;
+use crate::hydro::viscous::ForceFactors;
 use crate::math::to_real;
 use crate::motion::{
     Codebook, ControlSeries, Dwell, Moment, MotionGraph, Pattern, Trajectory, TurnFinder,
@@ -56,7 +57,7 @@ struct Flight {
 /// A dwell that was tried.
 struct Attempt {
     flight: Flight,
-    controls: Vec<[f32; 3]>,
+    controls: Vec<ForceFactors>,
     moments: Vec<Moment>,
     objectives: Vec<(EnergyObjective, Vec<ControlBox>)>,
     report: DwellReport,
@@ -91,7 +92,7 @@ impl Planner {
             Some(turbulence) => turbulence.clone(),
             None => {
                 let gravity = experiment.gravity.abs().max(1e-9);
-                let numbers = crate::motion::Numbers::of(
+                let numbers = crate::motion::DimensionlessNumbers::of(
                     &experiment.body.hydro,
                     &experiment.mass,
                     &experiment.fluid,
@@ -298,15 +299,16 @@ impl Planner {
         let mut turned = 0;
         let point = self.subspaces.grid().point(anchor);
         for body in &mut flight.bodies {
-            body.control.copy_from_slice(&point);
+            body.control = [point[0], point[1], point[2]].into();
         }
         loop {
             let objective = self.objective(&flight, random);
             if let Some(minimum) = objective.minimum(&boxes) {
                 // As it is saved, in f32.
-                let control: [f32; 3] = minimum.map(|x| x as f32).into();
+                let factors = ForceFactors::<f64>::from(<[f64; 3]>::from(minimum));
+                let control = ForceFactors::<f32>::from(factors);
                 for body in &mut flight.bodies {
-                    body.control = control.map(f64::from);
+                    body.control = control.into();
                 }
                 controls.push(control);
             }

@@ -137,7 +137,7 @@ impl Sweep {
         let released = experiment.released()?;
         let drop = |point: &[f64]| {
             let mut body = released.clone();
-            body.control.copy_from_slice(point);
+            body.control = [point[0], point[1], point[2]].into();
             Ok(Sample::of(&experiment.fall(body), classifier))
         };
         self.run(drop, progress)

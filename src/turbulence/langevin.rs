@@ -36,10 +36,10 @@ fn cube_root(x: Real) -> Real {
 /// Eight terms of 1 − e^(−x), accurate to 1e-8 from 0 to .35.
 #[inline(always)]
 fn lost<T: Scalar>(x: T) -> T {
-    let one = x.lit(1.0);
+    let one = x.constant(1.0);
     let mut sum = one;
     for n in (2..9).rev() {
-        sum = one - x * x.lit(1.0 / f64::from(n)) * sum;
+        sum = one - x * x.constant(1.0 / f64::from(n)) * sum;
     }
     x * sum
 }
@@ -49,22 +49,22 @@ fn lost<T: Scalar>(x: T) -> T {
 /// same bits on every platform and in every lane.
 #[inline(always)]
 fn memory<T: Scalar>(x: T) -> (T, T) {
-    let one = x.lit(1.0);
-    let short = x.lit(0.35);
-    let few = lost(x.smaller(short));
+    let one = x.constant(1.0);
+    let short = x.constant(0.35);
+    let few = lost(x.min(short));
     let (kept, fresh2) = (one - few, few * (one + (one - few)));
     // Usual steps are short.
-    if (-x).all_from(-0.35) {
+    if (-x).all_ge(-0.35) {
         return (kept, fresh2);
     }
     // The 64th part, six times squared; beyond 22 nothing is kept.
-    let mut long = one - lost(x.smaller(x.lit(22.0)) * x.lit(1.0 / 64.0));
+    let mut long = one - lost(x.min(x.constant(22.0)) * x.constant(1.0 / 64.0));
     for _ in 0..6 {
         long *= long;
     }
     (
-        kept.where_less(x, short, long),
-        fresh2.where_less(x, short, one - long * long),
+        kept.select_lt(x, short, long),
+        fresh2.select_lt(x, short, one - long * long),
     )
 }
 
@@ -127,9 +127,9 @@ pub(crate) fn pass<T: Scalar>(
     slip2: T,
     noise: [T; 3],
 ) -> [T; 3] {
-    let crossing = (slip2.lit(1.0) + slip2 * eddies.per_variance).root();
+    let crossing = (slip2.constant(1.0) + slip2 * eddies.per_variance).sqrt();
     let (kept, fresh2) = memory(eddies.decay * crossing);
-    let fresh = fresh2.root();
+    let fresh = fresh2.sqrt();
     for axis in 0..3 {
         seen[axis] = seen[axis] * kept + noise[axis] * fresh;
     }

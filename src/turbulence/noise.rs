@@ -64,12 +64,12 @@ impl NoiseStream {
 #[inline(always)]
 pub(crate) fn gaussian<T: Scalar>([a, b, c, d]: [T; 4]) -> [T; 3] {
     // ln a ≤ 0 for a ≤ 1. Of half the angle, so that no sign has to be chosen.
-    let first = (a.lit(-2.0) * a.logarithm()).root();
-    let second = (c.lit(-2.0) * c.logarithm()).root();
-    let (half, one, two) = (a.lit(0.5), a.lit(1.0), a.lit(2.0));
+    let first = (a.constant(-2.0) * a.ln()).sqrt();
+    let second = (c.constant(-2.0) * c.ln()).sqrt();
+    let (half, one, two) = (a.constant(0.5), a.constant(1.0), a.constant(2.0));
     let (b, d) = (b * half, d * half);
     let (sine, other) = (sine_of_turns(b), sine_of_turns(d));
-    let cosine = sine_of_turns(a.lit(0.25) - b.absolute());
+    let cosine = sine_of_turns(a.constant(0.25) - b.abs());
     [
         first * (one - two * sine * sine),
         first * (two * sine * cosine),
@@ -80,11 +80,11 @@ pub(crate) fn gaussian<T: Scalar>([a, b, c, d]: [T; 4]) -> [T; 3] {
 /// sin 2πx for |x| ≤ ¼, to 1e-7: six terms of the series.
 #[inline(always)]
 fn sine_of_turns<T: Scalar>(x: T) -> T {
-    let angle = x * x.lit(std::f64::consts::TAU);
-    let (square, one) = (angle * angle, x.lit(1.0));
+    let angle = x * x.constant(std::f64::consts::TAU);
+    let (square, one) = (angle * angle, x.constant(1.0));
     let mut sum = one;
     for n in [110.0, 72.0, 42.0, 20.0, 6.0] {
-        sum = one - square * x.lit(1.0 / n) * sum;
+        sum = one - square * x.constant(1.0 / n) * sum;
     }
     angle * sum
 }

@@ -1,9 +1,9 @@
 //! Closed bodies.
 
 use crate::{as_is, assert_within, ellipsoid, solve_ellipsoid};
+use rapier3d_immersed::AddedMass;
+use rapier3d_immersed::boundary_element::{BoundaryElementParams, BoundaryElementSolution};
 use rapier3d_immersed::geometry::Surface;
-use rapier3d_immersed::hydro::AddedMass;
-use rapier3d_immersed::hydro::boundary_element::{BoundaryElementParams, BoundaryElementSolution};
 use rapier3d_immersed::rapier3d::math::Vector;
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
 

@@ -8,9 +8,9 @@ mod coupled;
 mod sheets;
 mod symmetry;
 
+use rapier3d_immersed::AddedMass;
+use rapier3d_immersed::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::geometry::{Ellipsoid, Surface};
-use rapier3d_immersed::hydro::AddedMass;
-use rapier3d_immersed::hydro::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::rapier3d::na::Vector3;
 
 /// The mesh as it is, without refinement.

@@ -1,9 +1,9 @@
 //! Bodies without thickness.
 
 use crate::{as_is, assert_within, ellipsoid, solve_ellipsoid};
+use rapier3d_immersed::AddedMass;
+use rapier3d_immersed::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::geometry::Sheet;
-use rapier3d_immersed::hydro::AddedMass;
-use rapier3d_immersed::hydro::boundary_element::BoundaryElementParams;
 use std::f64::consts::PI;
 
 fn solve(sheet: &Sheet) -> AddedMass {

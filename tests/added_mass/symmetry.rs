@@ -1,10 +1,10 @@
 //! What must hold for every body, whatever its added mass.
 
 use crate::as_is;
+use rapier3d_immersed::AddedMass;
 use rapier3d_immersed::Error;
+use rapier3d_immersed::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::geometry::{Sheet, Surface};
-use rapier3d_immersed::hydro::AddedMass;
-use rapier3d_immersed::hydro::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::rapier3d::math::{Pose, Vector};
 use rapier3d_immersed::rapier3d::na::{Rotation3, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;

@@ -2,8 +2,8 @@
 //! there, with the velocity that they had, and the force model takes them over.
 
 use super::players::{path, world};
-use rapier3d_immersed::coupling::{AtContact, Drive, MotionPlayer, MotionPlayers, Playing};
 use rapier3d_immersed::motion::Regime;
+use rapier3d_immersed::playback::{AtContact, Drive, MotionPlayer, MotionPlayers, Playing};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
 

@@ -11,13 +11,14 @@ use rapier3d_immersed::Fluid;
 use rapier3d_immersed::motion::path::{
     HorizontalShape, MotionPath, SynthesisParams, Synthesizer, TrajectoryDatabase,
 };
-use rapier3d_immersed::motion::{Numbers, Outline, PhaseDiagram, Regime};
+use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, PhaseDiagram, Regime};
 use rapier3d_immersed::rapier3d::na::Vector3;
 use std::collections::HashSet;
 
 /// A leaf of the thesis's size (7.3 × 4.2 × 0.03 cm) and 400 kg/m³ in air.
 fn leaf(params: SynthesisParams) -> Synthesizer {
-    let numbers = Numbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81).unwrap();
+    let numbers =
+        DimensionlessNumbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81).unwrap();
     Synthesizer::new(&numbers, 0.073, TrajectoryDatabase::shipped(), params).unwrap()
 }
 
@@ -69,7 +70,8 @@ fn the_worked_bodies() {
 #[test]
 fn printed_and_computed_numbers() {
     let body = |fluid: Fluid, [length, chord, thickness]: [f64; 3], density| {
-        let numbers = Numbers::new(Outline::Round, chord, thickness, density, &fluid, 9.81);
+        let numbers =
+            DimensionlessNumbers::new(Outline::Round, chord, thickness, density, &fluid, 9.81);
         (numbers.unwrap(), length)
     };
     let bodies = [

@@ -1,10 +1,10 @@
 //! Bodies of rapier that play synthesized falls: they follow, collide, settle, and are blown along.
 
 use super::{leaf, up_to};
-use rapier3d_immersed::coupling::{AtContact, Drive, MotionPlayer, MotionPlayers, Playing};
 use rapier3d_immersed::flow::{Flow, Uniform};
 use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{MotionPath, WindResponse};
+use rapier3d_immersed::playback::{AtContact, Drive, MotionPlayer, MotionPlayers, Playing};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
 use std::sync::Arc;

@@ -2,12 +2,12 @@
 //! cannot be is refused when it is loaded.
 
 use super::{leaf, up_to};
-use rapier3d_immersed::coupling::{
-    AtContact, Drive, Emitter, EmitterParams, MotionPlayer, MotionPlayers,
-};
 use rapier3d_immersed::flow::{Flow, Uniform};
 use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{MotionPath, WindResponse};
+use rapier3d_immersed::playback::{
+    AtContact, Drive, Emitter, EmitterParams, MotionPlayer, MotionPlayers,
+};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
 use serde_json::Value;

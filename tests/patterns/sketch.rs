@@ -1,10 +1,10 @@
 //! A drawn path is followed: what the search found, replayed by an ordinary body in rapier.
 
 use crate::support::{LEAF, collider};
-use rapier3d_immersed::coupling::{FollowParams, Followed};
 use rapier3d_immersed::motion::Sketch;
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::training::Experiment;
+use rapier3d_immersed::training::{FollowParams, Followed};
 
 /// Length of the leaf, m.
 const LENGTH: f64 = 0.073;

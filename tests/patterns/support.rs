@@ -77,7 +77,7 @@ impl Leaf {
                 let body = self.released(release).translation(origin(i));
                 let (handle, _) = world.insert(body, collider());
                 immersion.insert(handle, self.experiment.body.clone());
-                immersion.play(handle, series, OnContact::Restart);
+                immersion.replay(handle, series, OnContact::Restart);
                 handle
             })
             .collect();

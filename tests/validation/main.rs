@@ -1,5 +1,6 @@
 //! What must hold: one physical law or promise per module.
 
+mod control;
 mod determinism;
 mod equivalence;
 mod fidelity;

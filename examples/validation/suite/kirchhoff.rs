@@ -7,7 +7,7 @@ use crate::support::draw::{self, Item, Panel, Point};
 use crate::support::fall::{from_rapier, to_rapier};
 use crate::support::{Quat, Vec3};
 use plotters::style::RGBColor;
-use rapier3d_immersed::hydro::AddedMass;
+use rapier3d_immersed::AddedMass;
 use rapier3d_immersed::rapier3d::math::{Rotation, Vector};
 use rapier3d_immersed::rapier3d::na::{Matrix3, Quaternion};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;

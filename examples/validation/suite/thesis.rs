@@ -5,10 +5,10 @@ use super::{Computed, Effort, Failure, Progress};
 use crate::support::draw::{self, Item, Panel, Point};
 use crate::support::{Vec3, previous};
 use plotters::style::RGBColor;
+use rapier3d_immersed::AddedMass;
 use rapier3d_immersed::flow::FlowSample;
 use rapier3d_immersed::geometry::Surface;
-use rapier3d_immersed::hydro::AddedMass;
-use rapier3d_immersed::motion::{Moment, Numbers, Trajectory};
+use rapier3d_immersed::motion::{DimensionlessNumbers, Moment, Trajectory};
 use rapier3d_immersed::rapier3d::na::{Matrix3, Matrix6};
 use rapier3d_immersed::training::{Experiment, thin_ellipsoid};
 use rapier3d_immersed::turbulence::{
@@ -215,7 +215,7 @@ fn effects(rows: &mut Vec<Row>) -> Result<String, Failure> {
         source,
     ));
 
-    let numbers = Numbers::of(&hydro, &mass, &Fluid::AIR, GRAVITY)?;
+    let numbers = DimensionlessNumbers::of(&hydro, &mass, &Fluid::AIR, GRAVITY)?;
     let body = ImmersedBody::new(hydro.clone());
     let release = |body: ImmersedBody, fluid: Fluid| {
         let mut experiment = Experiment::new(body, mass, fluid);
@@ -318,7 +318,10 @@ fn aside(fall: &Trajectory) -> f64 {
 }
 
 /// The experiment in a fluid whose velocity fluctuates by 30 % of U0.
-fn in_turbulence(experiment: &Experiment, numbers: &Numbers) -> Result<Trajectory, Error> {
+fn in_turbulence(
+    experiment: &Experiment,
+    numbers: &DimensionlessNumbers,
+) -> Result<Trajectory, Error> {
     let state = TurbulenceState::from_intensity(numbers.u0 as f32, 0.3, numbers.length as f32)?;
     let viscosity = numbers.kinematic_viscosity as f32;
     let c0 = kolmogorov_constant(state.taylor_reynolds_squared(viscosity));

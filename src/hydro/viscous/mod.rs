@@ -1,6 +1,6 @@
 //! Viscous forces: drag, translational lift, rotational lift and damping.
 //!
-//! Three laws, one form. Whatever the law, its force on the body is
+//! Several laws, one form. Whatever the law, its force on the body is
 //!
 //! ```text
 //! f = −(c·1 + S) v + W × v        v = velocity of the pressure point relative to the fluid
@@ -13,21 +13,46 @@
 //!
 //! All of it happens in **plate axes**: x along the longest, z along the shortest principal axis of
 //! the shape, origin at the body's center of mass.
+//!
+//! A law is a table of [`coefficients`] and constants that are prepared from it once per body and
+//! fluid. This file is the only one that lists them; `CONTRIBUTING.md` shows how to add one.
 
-pub mod physical;
-pub(crate) mod scaled;
-pub mod stochastic;
-pub mod thesis;
+pub(crate) mod coefficients;
+pub(crate) mod force_factors;
+mod inviscid;
+mod physical;
+mod stochastic;
+pub(crate) mod terms;
+mod thesis;
 
+pub use coefficients::{Bounds, Coefficient};
+pub use force_factors::ForceFactors;
 pub use physical::PhysicalLaw;
 pub use stochastic::StochasticLaw;
 pub use thesis::ThesisLaw;
 
 use crate::Error;
-use crate::math::Scalar;
-use rapier3d::na::{Matrix3, Vector3};
+use crate::fluid::Fluid;
+use crate::hydro::HydroProperties;
+use crate::math::{Lanes, Scalar};
+use fearless_simd::Simd;
+use inviscid::InviscidConstants;
+use physical::{PhysicalConstants, PlateConstants};
+use rapier3d::na::Vector3;
+use stochastic::StochasticConstants;
+use terms::{Evaluate, ViscousTerms};
+use thesis::ThesisConstants;
 
 /// Which law gives the viscous force.
+///
+/// ```
+/// use rapier3d_immersed::{PhysicalLaw, ThesisLaw, ViscousLaw};
+///
+/// let default = ViscousLaw::default();
+/// assert_eq!(default, ViscousLaw::Physical(PhysicalLaw::default()));
+/// let flutters = ViscousLaw::Thesis(ThesisLaw::new(ThesisLaw::ZIGZAG));
+/// assert!(flutters.check().is_ok());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -55,7 +80,8 @@ impl ViscousLaw {
     /// Checks every coefficient.
     ///
     /// # Errors
-    /// [`Error::InvalidParameter`] names the first that is not finite or has the wrong sign.
+    /// [`Error::InvalidParameter`] or [`Error::OutOfRange`] names the first that is not finite or out
+    /// of its bounds.
     pub fn check(&self) -> Result<(), Error> {
         match self {
             Self::Inviscid => Ok(()),
@@ -65,89 +91,144 @@ impl ViscousLaw {
         }
     }
 
+    /// The coefficients of the law with their names, none in an ideal fluid.
+    pub fn coefficients(&self) -> Vec<(&'static str, f64)> {
+        fn of<L: Copy>(law: &L, table: &[Coefficient<L>]) -> Vec<(&'static str, f64)> {
+            table.iter().map(|row| (row.name, row.of(law))).collect()
+        }
+        match self {
+            Self::Inviscid => Vec::new(),
+            Self::Physical(law) => of(law, PhysicalLaw::COEFFICIENTS),
+            Self::Thesis(law) => of(law, ThesisLaw::COEFFICIENTS),
+            Self::Stochastic(law) => of(law, StochasticLaw::COEFFICIENTS),
+        }
+    }
+
     /// How much of the inertial *coupling* of the added mass the law keeps, in [0, 1].
     pub(crate) fn munk_factor(&self) -> f64 {
         match self {
             Self::Physical(law) => law.munk,
-            _ => 1.0,
+            Self::Inviscid | Self::Thesis(_) | Self::Stochastic(_) => 1.0,
+        }
+    }
+
+    /// The law's constants for one body in one fluid. `mass` and `length` are the body's scales.
+    pub(crate) fn prepare(
+        &self,
+        hydro: &HydroProperties,
+        fluid: &Fluid,
+        mass: f64,
+        length: f64,
+    ) -> PreparedLaw<f64> {
+        match self {
+            Self::Inviscid => PreparedLaw::Inviscid(InviscidConstants::new()),
+            Self::Physical(law) => {
+                let constants = law.prepare(hydro, fluid, mass, length);
+                match PlateConstants::of(&constants) {
+                    Some(plate) => PreparedLaw::Plate(plate),
+                    None => PreparedLaw::Physical(constants),
+                }
+            }
+            Self::Thesis(law) => PreparedLaw::Thesis(law.prepare(hydro, fluid, mass, length)),
+            Self::Stochastic(law) => {
+                PreparedLaw::Stochastic(law.prepare(hydro, fluid, mass, length))
+            }
         }
     }
 }
 
-/// The viscous force of one moment, ready for the implicit solve. Plate axes; everything per unit
-/// of the body's mass scale, lengths in the body's length scale (see
-/// [`BodyConstants`](crate::body)).
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ViscousTerms<T> {
-    /// c, 1/s: resistance against the velocity of the pressure point.
-    pub drag: T,
-    /// Diagonal of S, 1/s.
-    pub creeping: Vector3<T>,
-    /// W of the translational lift, 1/s.
-    pub translational_lift: Vector3<T>,
-    /// W of the rotational lift, 1/s.
-    pub rotational_lift: Vector3<T>,
-    /// From the pressure point to the planform's center: z is 0.
-    pub arm: Vector3<T>,
-    /// Whether the pressure point's own velocity, due to `arm`, enters v. Such a law is passive;
-    /// without it the torque of the pressure can pump energy.
-    pub arm_moves: bool,
-    /// Diagonal of the rotational resistance, 1/s.
-    pub damping: Vector3<T>,
-}
-
-impl<T: Scalar> ViscousTerms<T> {
-    /// No force at all, in the kind of numbers that `scalar` is of.
-    #[inline(always)]
-    pub fn none(scalar: T) -> Self {
-        let drag = scalar.lit(0.0);
-        let zero = Vector3::repeat(drag);
-        Self {
-            drag,
-            creeping: zero,
-            translational_lift: zero,
-            rotational_lift: zero,
-            arm: zero,
-            arm_moves: true,
-            damping: zero,
+/// Defines [`PreparedLaw`] and [`LawKind`] from one list of variants.
+macro_rules! prepared_laws {
+    ($($(#[$doc:meta])* $variant:ident($constants:ident),)+) => {
+        /// A law's constants for one body in one fluid: `f64`, `f32`, or [`Lanes`] of it.
+        // There is one per set of equal bodies, and most are of the largest variant: a box would save
+        // nothing.
+        #[allow(clippy::large_enum_variant)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(crate) enum PreparedLaw<T> {
+            $($(#[$doc])* $variant($constants<T>),)+
         }
-    }
 
-    /// The matrix `−(c·1 + S) + W×` that maps v to the force.
-    #[inline(always)]
-    pub fn force_matrix(&self) -> Matrix3<T> {
-        let w = self.translational_lift + self.rotational_lift;
-        let d = self.creeping.map(|s| -(self.drag + s));
-        Matrix3::new(d.x, -w.z, w.y, w.z, d.y, -w.x, -w.y, w.x, d.z)
-    }
+        /// Which code evaluates a law: bodies of one kind can be advanced side by side.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(crate) enum LawKind {
+            $($variant,)+
+        }
+
+        impl LawKind {
+            /// All kinds, in the order of their numbers.
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)+];
+        }
+
+        impl<T> PreparedLaw<T> {
+            /// Which code evaluates it.
+            pub fn kind(&self) -> LawKind {
+                match self {
+                    $(Self::$variant(_) => LawKind::$variant,)+
+                }
+            }
+        }
+
+        impl PreparedLaw<f64> {
+            /// The nearest constants in f32.
+            pub fn rounded(&self) -> PreparedLaw<f32> {
+                match self {
+                    $(Self::$variant(law) => PreparedLaw::$variant(law.rounded()),)+
+                }
+            }
+        }
+
+        impl<S: Simd> PreparedLaw<Lanes<S>> {
+            /// The same constants in every lane.
+            #[inline(always)]
+            pub fn splat(simd: S, law: &PreparedLaw<f32>) -> Self {
+                match law {
+                    $(PreparedLaw::$variant(law) => Self::$variant($constants::splat(simd, law)),)+
+                }
+            }
+
+            /// The constants of one body in each lane. All must be of one kind; where one is not, the
+            /// first body's stand in for its own.
+            #[inline(always)]
+            pub fn gather<'a>(simd: S, of: impl Fn(usize) -> &'a PreparedLaw<f32>) -> Self {
+                match of(0) {
+                    $(PreparedLaw::$variant(first) => {
+                        Self::$variant($constants::gather(simd, |lane| match of(lane) {
+                            PreparedLaw::$variant(law) => law,
+                            _ => first,
+                        }))
+                    })+
+                }
+            }
+        }
+
+        impl<T: Scalar> Evaluate<T> for PreparedLaw<T> {
+            #[inline(always)]
+            fn least_iterations(&self) -> u32 {
+                match self {
+                    $(Self::$variant(law) => law.least_iterations(),)+
+                }
+            }
+
+            #[inline(always)]
+            fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
+                match self {
+                    $(Self::$variant(law) => law.terms(u, w),)+
+                }
+            }
+        }
+    };
 }
 
-/// A law whose per-body constants have been prepared.
-pub(crate) trait Evaluate<T: Scalar> {
-    /// Evaluations per substep that the law needs at least.
-    fn least_iterations(&self) -> u32 {
-        1
-    }
-
-    /// The terms at a velocity `u` of the planform's center and an angular velocity `w` (in units
-    /// of speed: times the length scale), both relative to the fluid, in plate axes.
-    fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T>;
-}
-
-/// `e / max(e, tiny)`-safe inverse: `1/x` with `x` kept away from zero.
-#[inline(always)]
-pub(crate) fn safe_inverse<T: Scalar>(x: T) -> T {
-    x.lit(1.0) / x.larger(x.lit(1e-12))
-}
-
-/// Torque arm of the thesis' laws: `(1 − sin³α)·a/2` along the in-plane velocity (thesis, text
-/// after (5.18): a quarter of the major axis in ideal flow), for the semi-axis `a`.
-#[inline(always)]
-pub(crate) fn thesis_arm<T: Scalar>(u: &Vector3<T>, semi_axis: T) -> Vector3<T> {
-    let tangential = (u.x * u.x + u.y * u.y).root();
-    let speed = (u.x * u.x + u.y * u.y + u.z * u.z).root();
-    let sine = u.z.absolute() * safe_inverse(speed);
-    let length = (sine.lit(1.0) - sine * sine * sine) * semi_axis * sine.lit(0.5);
-    let per_speed = length * safe_inverse(tangential);
-    Vector3::new(u.x * per_speed, u.y * per_speed, u.z.lit(0.0))
+prepared_laws! {
+    /// An ideal fluid.
+    Inviscid(InviscidConstants),
+    /// The default law for a body that is purely a plate to it …
+    Plate(PlateConstants),
+    /// … and for one that is not.
+    Physical(PhysicalConstants),
+    /// The thesis's law of chapter 5.
+    Thesis(ThesisConstants),
+    /// The thesis's law of chapter 4.
+    Stochastic(StochasticConstants),
 }

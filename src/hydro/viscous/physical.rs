@@ -1,181 +1,144 @@
 //! The default law: physical, passive, calibrated against experiments.
 
-use super::{Evaluate, ViscousTerms, safe_inverse};
-use crate::Error;
+use super::coefficients::{Bounds, Coefficient, coefficients};
+use super::terms::{Evaluate, ViscousTerms, safe_inverse};
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
-use crate::math::{Scalar, scalar_struct};
+use crate::math::{Lanes, Scalar, scalar_struct};
+use fearless_simd::Simd;
 use rapier3d::na::Vector3;
 use std::f64::consts::PI;
 
-/// Coefficients of the default viscous law, dimensionless. One set serves every thin body: plates
-/// in water, paper in air, discs of any Reynolds number.
-///
-/// With n the plate normal, `c` the chord along the motion, `A` the planform area, `AR` the aspect
-/// ratio span²/A, `Re = |u|c/ν`, and the angle of attack `s = sin α = |u·n|/|u|`, the flow is
-/// attached to the share `f = 1/(1 + exp(2(s − s₀)/δ))`, and separated otherwise. All forces use the
-/// velocity relative to the fluid **v** at the center of pressure `p = χ f c u_t/|u|`:
-///
-/// * drag `−½ρA|v| (C_D0 + C_N sin²α + C_Di) v`: skin friction and edges in `C_D0`; in `C_N` the
-///   broadside value C_D90 − C_D0 from the measured disc curve, which passes to Stokes as Re → 0, and
-///   where the flow is attached the suction that a sharp leading edge loses, `2 k_s C_attached`
-///   (at `k_s` = 1 the force is normal to the plate);
-/// * induced drag `C_Di = k_i C_L²/(π AR)` (linear for C_L ≫ 3) with the lift coefficient C_L of both lifts together, as
-///   of a finite wing (Prandtl 1918): it is what makes a tumbling disc drift so much less than a
-///   tumbling strip;
-/// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, `C_T` from attached (f) to separated flow, each
-///   reduced by its aspect ratio, absent below the onset of the wake (Re ≈ 100);
-/// * rotational lift `ρAc C_R (1 − ε sin²α) ω_t × v`;
-/// * damping of the rotation by the pressure on the two halves of the plate and by friction;
-/// * the Munk moment of the added mass weakened to `munk`, because separated flow does not recover
-///   the pressure that makes it.
-///
-/// No term can add energy to body and fluid: drag opposes v, the lifts are perpendicular to it, and
-/// the torque is that of the same force at the same point.
-///
-/// The numbers come from a global search against falling plates in water (Andersen, Pesavento &
-/// Wang 2005), the regime map of discs (Field et al. 1997) and falling paper (Howison et al. 2020):
-/// [`training::fidelity`](crate::training::fidelity), example `calibrate`. What they reach is in
-/// the table of the example `validation`.
-///
-/// Bodies that are not plates blend, by thickness, into the drag curve of a sphere (Clift &
-/// Gauvin 1971) on their actual shadow, with a Magnus force instead of the plate's lifts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
-pub struct PhysicalLaw {
-    /// χ: travel of the center of pressure toward the leading edge in attached flow, in chords.
-    pub pressure_travel: f64,
-    /// C_attached: lift slope of attached flow, before the aspect ratio's `AR/(AR + λ₁)`.
-    pub attached_lift: f64,
-    /// λ₁.
-    pub attached_aspect: f64,
-    /// C_stalled: lift coefficient of separated flow, before `AR/(AR + λ₂)`.
-    pub stalled_lift: f64,
-    /// λ₂.
-    pub stalled_aspect: f64,
-    /// s₀: sine of the angle of attack at which the flow stalls.
-    pub stall_sine: f64,
-    /// δ: width of the stall in sin α.
-    pub stall_width: f64,
-    /// C_R: rotational lift, before `AR/(AR + λ_R)`.
-    pub rotational_lift: f64,
-    /// λ_R.
-    pub rotational_aspect: f64,
-    /// ε: loss of rotational lift broadside on.
-    pub rotational_stall: f64,
-    /// k_M ∈ [0, 1]: share of the added mass' inertial coupling (Munk moment) that is felt.
-    pub munk: f64,
-    /// k₁: damping of rotation by translation.
-    pub translation_damping: f64,
-    /// k₂: damping of rotation by rotation.
-    pub rotation_damping: f64,
-    /// k_f: skin friction, `k_f Re^−½`.
-    pub friction: f64,
-    /// k_e: pressure drag of the edges, per thickness over chord.
-    pub edge_drag: f64,
-    /// Re_L: onset of the wake's lift, `1/(1 + (Re_L/Re)⁷)`.
-    pub lift_onset: f64,
-    /// Re_D: below it rotation is damped more, `1 + (Re_D/Re)^1.5`.
-    pub damping_onset: f64,
-    /// k_s: share of the leading edge's suction that attached flow loses: at 1 its force is normal to
-    /// the plate.
-    pub suction_loss: f64,
-    /// k_i: induced drag, in units of the elliptic wing's.
-    pub induced_drag: f64,
-    /// C_M ∈ [½, 1]: Magnus force `C_M ρV ω × u` of bodies that are not plates.
-    pub magnus: f64,
-}
-
-impl Default for PhysicalLaw {
-    fn default() -> Self {
-        Self {
-            pressure_travel: 0.0962,
-            attached_lift: 5.12,
-            attached_aspect: 2.06,
-            stalled_lift: 2.0,
-            stalled_aspect: 1.1,
-            stall_sine: 0.835,
-            stall_width: 0.812,
-            rotational_lift: 1.89,
-            rotational_aspect: 6.55,
-            rotational_stall: 0.176,
-            munk: 0.0345,
-            translation_damping: 0.0827,
-            rotation_damping: 3.41,
-            friction: 2.46,
-            edge_drag: 0.0,
-            lift_onset: 119.0,
-            damping_onset: 52.9,
-            suction_loss: 0.877,
-            induced_drag: 1.54,
-            magnus: 0.5,
-        }
+coefficients! {
+    /// Coefficients of the default viscous law, dimensionless. One set serves every thin body: plates
+    /// in water, paper in air, discs of any Reynolds number.
+    ///
+    /// With n the plate normal, `c` the chord along the motion, `A` the planform area, `AR` the aspect
+    /// ratio span²/A, `Re = |u|c/ν`, and the angle of attack `s = sin α = |u·n|/|u|`, the flow is
+    /// attached to the share `f = 1/(1 + exp(2(s − s₀)/δ))`, and separated otherwise. All forces use the
+    /// velocity relative to the fluid **v** at the center of pressure `p = χ f c u_t/|u|`:
+    ///
+    /// * drag `−½ρA|v| (C_D0 + C_N sin²α + C_Di) v`: skin friction and edges in `C_D0`; in `C_N` the
+    ///   broadside value C_D90 − C_D0 from the measured disc curve, which passes to Stokes as Re → 0, and
+    ///   where the flow is attached the suction that a sharp leading edge loses, `2 k_s C_attached`
+    ///   (at `k_s` = 1 the force is normal to the plate);
+    /// * induced drag `C_Di = k_i C_L²/(π AR)` (linear for C_L ≫ 3) with the lift coefficient C_L of both lifts together, as
+    ///   of a finite wing (Prandtl 1918): it is what makes a tumbling disc drift so much less than a
+    ///   tumbling strip;
+    /// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, `C_T` from attached (f) to separated flow, each
+    ///   reduced by its aspect ratio, absent below the onset of the wake (Re ≈ 100);
+    /// * rotational lift `ρAc C_R (1 − ε sin²α) ω_t × v`;
+    /// * damping of the rotation by the pressure on the two halves of the plate and by friction;
+    /// * the Munk moment of the added mass weakened to `munk`, because separated flow does not recover
+    ///   the pressure that makes it.
+    ///
+    /// No term can add energy to body and fluid: drag opposes v, the lifts are perpendicular to it, and
+    /// the torque is that of the same force at the same point.
+    ///
+    /// The numbers come from a global search against falling plates in water (Andersen, Pesavento &
+    /// Wang 2005), the regime map of discs (Field et al. 1997) and falling paper (Howison et al. 2020):
+    /// [`training::fidelity`](crate::training::fidelity), example `calibrate`. What they reach is in
+    /// the table of the example `validation`.
+    ///
+    /// Bodies that are not plates blend, by thickness, into the drag curve of a sphere (Clift &
+    /// Gauvin 1971) on their actual shadow, with a Magnus force instead of the plate's lifts.
+    pub struct PhysicalLaw {
+        /// χ: travel of the center of pressure toward the leading edge in attached flow, in chords.
+        pressure_travel: 0.0962, NotNegative, search 0.0 to 0.3;
+        /// C_attached: lift slope of attached flow, before the aspect ratio's `AR/(AR + λ₁)`.
+        attached_lift: 5.12, NotNegative, search 1.5 to 7.0;
+        /// λ₁.
+        attached_aspect: 2.06, NotNegative, search 0.3 to 6.0;
+        /// C_stalled: lift coefficient of separated flow, before `AR/(AR + λ₂)`.
+        stalled_lift: 2.0, NotNegative, search 0.2 to 3.0;
+        /// λ₂.
+        stalled_aspect: 1.1, NotNegative, search 0.0 to 6.0;
+        /// s₀: sine of the angle of attack at which the flow stalls.
+        stall_sine: 0.835, NotNegative, search 0.2 to 1.5;
+        /// δ: width of the stall in sin α.
+        stall_width: 0.812, Positive, search 0.05 to 1.2;
+        /// C_R: rotational lift, before `AR/(AR + λ_R)`.
+        rotational_lift: 1.89, NotNegative, search 0.2 to 4.0;
+        /// λ_R.
+        rotational_aspect: 6.55, NotNegative, search 0.0 to 12.0;
+        /// ε: loss of rotational lift broadside on.
+        rotational_stall: 0.176, Unit, search 0.0 to 1.0;
+        /// k_M ∈ [0, 1]: share of the added mass' inertial coupling (Munk moment) that is felt.
+        munk: 0.0345, Unit, search 0.0 to 1.0;
+        /// k₁: damping of rotation by translation.
+        translation_damping: 0.0827, NotNegative, search 0.0 to 1.5;
+        /// k₂: damping of rotation by rotation.
+        rotation_damping: 3.41, NotNegative, search 0.0 to 10.0;
+        /// k_f: skin friction, `k_f Re^−½`.
+        friction: 2.46, NotNegative, search 1.0 to 9.0;
+        /// k_e: pressure drag of the edges, per thickness over chord.
+        edge_drag: 0.0, NotNegative, search 0.0 to 2.0;
+        /// Re_L: onset of the wake's lift, `1/(1 + (Re_L/Re)⁷)`.
+        lift_onset: 119.0, NotNegative, search 50.0 to 140.0;
+        /// Re_D: below it rotation is damped more, `1 + (Re_D/Re)^1.5`.
+        damping_onset: 52.9, NotNegative, search 0.0 to 60.0;
+        /// k_s: share of the leading edge's suction that attached flow loses: at 1 its force is normal to
+        /// the plate.
+        suction_loss: 0.877, NotNegative, search 0.0 to 1.3;
+        /// k_i: induced drag, in units of the elliptic wing's.
+        induced_drag: 1.54, NotNegative, search 0.0 to 3.0;
+        /// C_M ∈ [½, 1]: Magnus force `C_M ρV ω × u` of bodies that are not plates.
+        magnus: 0.5, NotNegative;
     }
 }
 
 scalar_struct! {
     /// What [`PhysicalLaw`] needs of one body in one fluid. Plate axes, lengths in units of the
     /// body's length scale L, everything divided by its mass scale.
-    pub(crate) struct PhysicalConstants {
+    pub(crate) struct PhysicalConstants<T> {
         /// ½ρA, 1/m.
-        dynamic_area,
+        dynamic_area: T,
         /// Squared half extent of the planform along x, L².
-        extent_x2,
+        extent_x2: T,
         /// Squared half extent of the planform along y, L².
-        extent_y2,
+        extent_y2: T,
         /// Product of the two half extents, L².
-        extent_product,
+        extent_product: T,
         /// Planform area, L².
-        area,
+        area: T,
         /// Speed × chord × this = Re.
-        reynolds_scale,
-        broadside_plateau,
-        broadside_mid,
-        friction,
-        edge_drag,
-        creeping_x,
-        creeping_y,
-        creeping_z,
-        attached_lift,
-        attached_aspect,
-        stalled_lift,
-        stalled_aspect,
-        stall_sine,
-        stall_rate,
-        rotational_lift,
-        rotational_aspect,
-        rotational_stall,
-        lift_onset,
-        damping_onset,
-        pressure_travel,
-        attached_drag,
-        induced_drag,
+        reynolds_scale: T,
+        broadside_plateau: T,
+        broadside_mid: T,
+        friction: T,
+        edge_drag: T,
+        /// Creeping resistance along x, y, z, 1/s.
+        creeping: Vector3<T>,
+        attached_lift: T,
+        attached_aspect: T,
+        stalled_lift: T,
+        stalled_aspect: T,
+        stall_sine: T,
+        stall_rate: T,
+        rotational_lift: T,
+        rotational_aspect: T,
+        rotational_stall: T,
+        lift_onset: T,
+        damping_onset: T,
+        pressure_travel: T,
+        attached_drag: T,
+        induced_drag: T,
         /// Damping of the rotation about x, y, z by the pressure, per speed (1/m) …
-        damping_u_x,
-        damping_u_y,
-        damping_u_z,
+        damping_u: Vector3<T>,
         /// … and per spin in units of speed (1/m).
-        damping_w_x,
-        damping_w_y,
-        damping_w_z,
-        spin_friction,
-        creeping_spin_x,
-        creeping_spin_y,
-        creeping_spin_z,
+        damping_w: Vector3<T>,
+        spin_friction: T,
+        /// Creeping resistance to rotation about x, y, z, 1/s.
+        creeping_spin: Vector3<T>,
         /// Share of the plate's drag; the rest is that of a bluff body.
-        plate_share,
+        plate_share: T,
         /// Squares of the bluff body's share of ½ρ × its shadow along x, y, z.
-        shadow_x2,
-        shadow_y2,
-        shadow_z2,
-        bluff_plateau,
+        shadow2: Vector3<T>,
+        bluff_plateau: T,
         /// Speed × this = Re on the volume's diameter.
-        bluff_reynolds_scale,
+        bluff_reynolds_scale: T,
         /// Magnus force per spin in units of speed, 1/m.
-        magnus,
+        magnus: T,
     }
 }
 
@@ -209,40 +172,6 @@ fn thinness(ratio: f64) -> f64 {
 }
 
 impl PhysicalLaw {
-    /// Checks every coefficient.
-    ///
-    /// # Errors
-    /// [`Error::InvalidParameter`] names the first coefficient that is not finite, is negative, or
-    /// (`munk`, `rotational_stall`) exceeds 1.
-    pub fn check(&self) -> Result<(), Error> {
-        let fields = [
-            ("pressure_travel", self.pressure_travel),
-            ("attached_lift", self.attached_lift),
-            ("attached_aspect", self.attached_aspect),
-            ("stalled_lift", self.stalled_lift),
-            ("stalled_aspect", self.stalled_aspect),
-            ("stall_sine", self.stall_sine),
-            ("rotational_lift", self.rotational_lift),
-            ("rotational_aspect", self.rotational_aspect),
-            ("translation_damping", self.translation_damping),
-            ("rotation_damping", self.rotation_damping),
-            ("friction", self.friction),
-            ("edge_drag", self.edge_drag),
-            ("suction_loss", self.suction_loss),
-            ("induced_drag", self.induced_drag),
-            ("lift_onset", self.lift_onset),
-            ("damping_onset", self.damping_onset),
-            ("magnus", self.magnus),
-        ];
-        for (parameter, value) in fields {
-            Error::check_range(parameter, value, 0.0, f64::MAX)?;
-        }
-        Error::check_range("munk", self.munk, 0.0, 1.0)?;
-        Error::check_range("rotational_stall", self.rotational_stall, 0.0, 1.0)?;
-        Error::check_positive("stall_width", self.stall_width)?;
-        Ok(())
-    }
-
     /// The constants of one body. `mass` and `length` are its scales.
     pub(crate) fn prepare(
         &self,
@@ -292,9 +221,7 @@ impl PhysicalLaw {
             broadside_mid: DISC_MID.0 * plateau / DISC_PLATEAU,
             friction: self.friction,
             edge_drag: self.edge_drag * plate.thickness / length,
-            creeping_x: drag.x,
-            creeping_y: drag.y,
-            creeping_z: drag.z,
+            creeping: drag,
             attached_lift: self.attached_lift * share,
             attached_aspect: self.attached_aspect,
             stalled_lift: self.stalled_lift * share,
@@ -309,21 +236,13 @@ impl PhysicalLaw {
             pressure_travel: self.pressure_travel * share,
             attached_drag: 2.0 * self.suction_loss,
             induced_drag: self.induced_drag / PI,
-            damping_u_x: by_u(0),
-            damping_u_y: by_u(1),
-            damping_u_z: by_u(2),
-            damping_w_x: by_w(0),
-            damping_w_y: by_w(1),
-            damping_w_z: by_w(2),
+            damping_u: Vector3::new(by_u(0), by_u(1), by_u(2)),
+            damping_w: Vector3::new(by_w(0), by_w(1), by_w(2)),
             spin_friction: 0.005 * rho * (plate.second_moment.x + plate.second_moment.y)
                 / (mass * length * length),
-            creeping_spin_x: spin_drag.x,
-            creeping_spin_y: spin_drag.y,
-            creeping_spin_z: spin_drag.z,
+            creeping_spin: spin_drag,
             plate_share: share,
-            shadow_x2: shadow(b * c),
-            shadow_y2: shadow(a * c),
-            shadow_z2: shadow(a * b),
+            shadow2: Vector3::new(shadow(b * c), shadow(a * c), shadow(a * b)),
             bluff_plateau: 0.42 + edges * (1.05 - 0.42),
             bluff_reynolds_scale: diameter / nu,
             magnus: self.magnus * rho * hydro.volume * (1.0 - share) / (mass * length),
@@ -331,11 +250,37 @@ impl PhysicalLaw {
     }
 }
 
-/// The law of bodies that are plates through and through: no bluff body's share to compute.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PlatesOnly<'a, T>(pub &'a PhysicalConstants<T>);
+/// The constants of a body that is purely a plate to the law: no bluff body's share is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PlateConstants<T>(PhysicalConstants<T>);
 
-impl<T: Scalar> Evaluate<T> for PlatesOnly<'_, T> {
+impl PlateConstants<f64> {
+    /// `None` for a body that is partly a bluff one.
+    pub fn of(constants: &PhysicalConstants<f64>) -> Option<Self> {
+        (constants.plate_share == 1.0).then_some(Self(*constants))
+    }
+
+    /// The nearest constants in f32.
+    pub fn rounded(&self) -> PlateConstants<f32> {
+        PlateConstants(self.0.rounded())
+    }
+}
+
+impl<S: Simd> PlateConstants<Lanes<S>> {
+    /// The same constants in every lane.
+    #[inline(always)]
+    pub fn splat(simd: S, constants: &PlateConstants<f32>) -> Self {
+        Self(PhysicalConstants::splat(simd, &constants.0))
+    }
+
+    /// The constants of one body in each lane.
+    #[inline(always)]
+    pub fn gather<'a>(simd: S, of: impl Fn(usize) -> &'a PlateConstants<f32>) -> Self {
+        Self(PhysicalConstants::gather(simd, |lane| &of(lane).0))
+    }
+}
+
+impl<T: Scalar> Evaluate<T> for PlateConstants<T> {
     #[inline(always)]
     fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
         self.0.evaluate::<false>(u, w)
@@ -352,30 +297,30 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
 impl<T: Scalar> PhysicalConstants<T> {
     #[inline(always)]
     fn evaluate<const BLUFF: bool>(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
-        let lit = |value| u.x.lit(value);
-        let (zero, one) = (lit(0.0), lit(1.0));
+        let constant = |value| u.x.constant(value);
+        let (zero, one) = (constant(0.0), constant(1.0));
         let tangential2 = u.x * u.x + u.y * u.y;
-        let speed = (tangential2 + u.z * u.z).root();
+        let speed = (tangential2 + u.z * u.z).sqrt();
         let per_speed = safe_inverse(speed);
 
         // Span across the motion, and the chord through the center along it: an ellipse's product
         // of the two is the same in every direction. For motion along n any direction will do.
-        let tiny = lit(1e-12);
+        let tiny = constant(1e-12);
         let (ux2, uy2) = (u.x * u.x + tiny, u.y * u.y + tiny);
-        let span2 = lit(4.0) * (self.extent_x2 * uy2 + self.extent_y2 * ux2) / (ux2 + uy2);
-        let chord = lit(4.0) * self.extent_product / span2.root();
+        let span2 = constant(4.0) * (self.extent_x2 * uy2 + self.extent_y2 * ux2) / (ux2 + uy2);
+        let chord = constant(4.0) * self.extent_product / span2.sqrt();
         let aspect = span2 / self.area;
-        let re = (speed * chord * self.reynolds_scale).larger(lit(1e-3));
+        let re = (speed * chord * self.reynolds_scale).max(constant(1e-3));
 
         // How much of the flow is attached, by the center's angle of attack.
-        let stall = self.stall_rate * (u.z.absolute() * per_speed - self.stall_sine);
-        let attached = one / (one + stall.exponential());
+        let stall = self.stall_rate * (u.z.abs() * per_speed - self.stall_sine);
+        let attached = one / (one + stall.exp());
 
         // Pressure point and its velocity. Separated flow presses on the center.
         let travel = self.pressure_travel * attached * chord * per_speed;
         let arm = Vector3::new(travel * u.x, travel * u.y, zero);
         let vz = u.z + w.x * arm.y - w.y * arm.x;
-        let v_speed = (tangential2 + vz * vz).root();
+        let v_speed = (tangential2 + vz * vz).sqrt();
         let per_v = safe_inverse(v_speed);
         let sine = vz * per_v;
         let sine2 = sine * sine;
@@ -396,40 +341,38 @@ impl<T: Scalar> PhysicalConstants<T> {
 
         // Drag of the plate. Its creeping part is the linear resistance; what is left broadside is
         // the larger of the disc's mid range and its plateau.
-        let mid = if re.all_from(MID_ENDS) {
+        let mid = if re.all_ge(MID_ENDS) {
             zero
         } else {
-            let power = (re.logarithm() * lit(DISC_MID.1)).exponential();
-            (self.broadside_mid * power).where_less(re, lit(MID_ENDS), zero)
+            let power = (re.ln() * constant(DISC_MID.1)).exp();
+            (self.broadside_mid * power).select_lt(re, constant(MID_ENDS), zero)
         };
-        let creeping_share = self.creeping_z * per_speed / self.dynamic_area;
-        let broadside = mid.larger(self.broadside_plateau - creeping_share);
-        let edgewise = self.friction / re.root() + self.edge_drag / chord;
+        let creeping_share = self.creeping.z * per_speed / self.dynamic_area;
+        let broadside = mid.max(self.broadside_plateau - creeping_share);
+        let edgewise = self.friction / re.sqrt() + self.edge_drag / chord;
         // Attached flow that does not turn round the sharp edge pulls the lift back to the normal;
         // broadside on there is no such flow.
         let across = broadside - edgewise;
-        let behind = (self.attached_drag * slope - across).larger(zero);
+        let behind = (self.attached_drag * slope - across).max(zero);
         let normal = across + wake * attached * (one - sine2) * behind;
         // Induced drag of both lifts, C_L²/(π AR (1 + 0.3 C_L)): linear where C_L is large, so that a
         // body that hardly does more than spin is not stopped dead.
         let (wx, wy) = (by_angle.x + by_spin.x, by_angle.y + by_spin.y);
-        let lift = (wx * wx + wy * wy).root();
+        let lift = (wx * wx + wy * wy).sqrt();
         let dynamic = self.dynamic_area * v_speed;
         let induced =
-            self.induced_drag * lift * lift / (aspect * (dynamic + lit(0.3) * lift).larger(tiny));
+            self.induced_drag * lift * lift / (aspect * (dynamic + constant(0.3) * lift).max(tiny));
         let plate = dynamic * (edgewise + normal * sine2) + induced;
 
         // Drag of a bluff body on its shadow: Clift & Gauvin without the Stokes term.
         let drag = if BLUFF {
-            let shadow_speed = (self.shadow_x2 * u.x * u.x
-                + self.shadow_y2 * u.y * u.y
-                + self.shadow_z2 * u.z * u.z)
-                .root();
-            let log_re = (speed * self.bluff_reynolds_scale)
-                .larger(lit(1e-3))
-                .logarithm();
-            let bluff = lit(3.6) * (log_re * lit(-0.313)).exponential()
-                + self.bluff_plateau / (one + lit(42500.0) * (log_re * lit(-1.16)).exponential());
+            let shadow_speed = (self.shadow2.x * u.x * u.x
+                + self.shadow2.y * u.y * u.y
+                + self.shadow2.z * u.z * u.z)
+                .sqrt();
+            let log_re = (speed * self.bluff_reynolds_scale).max(constant(1e-3)).ln();
+            let bluff = constant(3.6) * (log_re * constant(-0.313)).exp()
+                + self.bluff_plateau / (one + constant(42500.0) * (log_re * constant(-1.16)).exp());
             self.plate_share * plate + shadow_speed * bluff
         } else {
             plate
@@ -437,14 +380,14 @@ impl<T: Scalar> PhysicalConstants<T> {
 
         // Damping. √(Re² + 1) keeps the low-Reynolds increase finite in a body at rest, where the
         // creeping resistance has long taken over.
-        let onset = self.damping_onset / (re * re + one).root();
-        let by_speed = speed * (one + onset * onset.root());
-        let spin = (w.x * w.x + w.y * w.y).root();
-        let spin_z = w.z.absolute();
+        let onset = self.damping_onset / (re * re + one).sqrt();
+        let by_speed = speed * (one + onset * onset.sqrt());
+        let spin = (w.x * w.x + w.y * w.y).sqrt();
+        let spin_z = w.z.abs();
         let friction = self.spin_friction * (speed + chord * spin_z);
         ViscousTerms {
             drag,
-            creeping: Vector3::new(self.creeping_x, self.creeping_y, self.creeping_z),
+            creeping: self.creeping,
             translational_lift: by_angle,
             rotational_lift: if BLUFF {
                 by_spin + w * self.magnus
@@ -454,12 +397,12 @@ impl<T: Scalar> PhysicalConstants<T> {
             arm,
             arm_moves: true,
             damping: Vector3::new(
-                self.damping_u_x * by_speed + self.damping_w_x * spin + self.creeping_spin_x,
-                self.damping_u_y * by_speed + self.damping_w_y * spin + self.creeping_spin_y,
-                self.damping_u_z * by_speed
-                    + self.damping_w_z * spin_z
+                self.damping_u.x * by_speed + self.damping_w.x * spin + self.creeping_spin.x,
+                self.damping_u.y * by_speed + self.damping_w.y * spin + self.creeping_spin.y,
+                self.damping_u.z * by_speed
+                    + self.damping_w.z * spin_z
                     + friction
-                    + self.creeping_spin_z,
+                    + self.creeping_spin.z,
             ),
         }
     }

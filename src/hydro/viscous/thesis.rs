@@ -1,40 +1,36 @@
 //! The thesis' law: three components with instantaneous coefficients (§ 5.3.2).
 
-use super::{
-    Evaluate, PhysicalLaw, ViscousTerms, physical::PhysicalConstants, safe_inverse, thesis_arm,
-};
-use crate::Error;
-use crate::dynamics::kirchhoff::cross;
+use super::coefficients::{Bounds, Coefficient, coefficients};
+use super::physical::PhysicalLaw;
+use super::terms::{Evaluate, ViscousTerms, safe_inverse};
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
+use crate::math::spatial::{cross, norm};
 use crate::math::{Scalar, scalar_struct};
 use rapier3d::na::Vector3;
 use std::f64::consts::PI;
 
-/// Drag, rotational lift and translational lift with coefficients that follow the angle of attack,
-/// `(C_D sin²α, C_L1 sin 2α, C_L2 cos 2α)`, along û, ω × u and (ω × u) × u (thesis (5.15)–(5.17)).
-///
-/// The control parameters C̃ are meant to be varied: chapter 5 of the thesis trains motion patterns
-/// over them. As printed the law is undefined where ω ∥ u, and it pumps energy into light bodies (a
-/// card of 300 kg/m³ spins up past 1000 rad/s); the two constructors differ in what they do about
-/// that.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
-pub struct ThesisLaw {
-    /// C_D: drag coefficient broadside on.
-    pub drag: f64,
-    /// C_L1: amplitude of the lift along ω × u.
-    pub rotational_lift: f64,
-    /// C_L2: amplitude of the lift along (ω × u) × u.
-    pub translational_lift: f64,
-    /// κ: the unit vector of ω × u is regularised to `ω × u / (|ω × u| + κ |u|²/L)`, with L the
-    /// major semi-axis, so that the lifts fade where the body hardly turns.
-    pub regularisation: f64,
-    /// Share of the rotational damping of the default law, in [0, 1] or above.
-    pub damping: f64,
+coefficients! {
+    /// Drag, rotational lift and translational lift with coefficients that follow the angle of attack,
+    /// `(C_D sin²α, C_L1 sin 2α, C_L2 cos 2α)`, along û, ω × u and (ω × u) × u (thesis (5.15)–(5.17)).
+    ///
+    /// The control parameters C̃ are meant to be varied: chapter 5 of the thesis trains motion patterns
+    /// over them. As printed the law is undefined where ω ∥ u, and it pumps energy into light bodies (a
+    /// card of 300 kg/m³ spins up past 1000 rad/s); the two constructors differ in what they do about
+    /// that. The default is [`ThesisLaw::new`] with [`ThesisLaw::ZIGZAG`].
+    pub struct ThesisLaw {
+        /// C_D: drag coefficient broadside on.
+        drag: 0.31, NotNegative;
+        /// C_L1: amplitude of the lift along ω × u.
+        rotational_lift: 0.91, Finite;
+        /// C_L2: amplitude of the lift along (ω × u) × u.
+        translational_lift: 0.61, Finite;
+        /// κ: the unit vector of ω × u is regularised to `ω × u / (|ω × u| + κ |u|²/L)`, with L the
+        /// major semi-axis, so that the lifts fade where the body hardly turns.
+        regularisation: 0.02, NotNegative;
+        /// Share of the rotational damping of the default law, in [0, 1] or above.
+        damping: 0.3, NotNegative;
+    }
 }
 
 impl ThesisLaw {
@@ -44,8 +40,7 @@ impl ThesisLaw {
             drag,
             rotational_lift,
             translational_lift,
-            regularisation: 0.02,
-            damping: 0.3,
+            ..Self::default()
         }
     }
 
@@ -84,21 +79,6 @@ impl ThesisLaw {
     /// Hu & Wang 2014, middle of the ranges of thesis Table 5.1.
     pub const HU_2014: [f64; 3] = [1.9, PI, PI / 2.0];
 
-    /// Checks every coefficient.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if a coefficient is not finite, or drag, regularisation or damping
-    /// are negative.
-    pub fn check(&self) -> Result<(), Error> {
-        Error::check_range("drag", self.drag, 0.0, f64::MAX)?;
-        let (low, high) = (f64::MIN, f64::MAX);
-        Error::check_range("rotational_lift", self.rotational_lift, low, high)?;
-        Error::check_range("translational_lift", self.translational_lift, low, high)?;
-        Error::check_range("regularisation", self.regularisation, 0.0, high)?;
-        Error::check_range("damping", self.damping, 0.0, high)?;
-        Ok(())
-    }
-
     pub(crate) fn prepare(
         &self,
         hydro: &HydroProperties,
@@ -107,7 +87,7 @@ impl ThesisLaw {
         length: f64,
     ) -> ThesisConstants<f64> {
         let rho = f64::from(fluid.density());
-        let damping = PhysicalLaw::default().prepare(hydro, fluid, mass, length);
+        let default = PhysicalLaw::default().prepare(hydro, fluid, mass, length);
         let major = hydro.planform.half_extents.x / length;
         ThesisConstants {
             dynamic_area: 0.5 * rho * hydro.planform.area / mass,
@@ -117,7 +97,9 @@ impl ThesisLaw {
             // |ω × u| is compared in units of speed², hence the division by the major semi-axis.
             regularisation: self.regularisation / major,
             major,
-            ..ThesisConstants::damped(&damping, self.damping)
+            damping_u: default.damping_u * self.damping,
+            damping_w: default.damping_w * self.damping,
+            creeping_spin: default.creeping_spin * self.damping,
         }
     }
 }
@@ -125,47 +107,30 @@ impl ThesisLaw {
 scalar_struct! {
     /// What [`ThesisLaw`] needs of one body in one fluid; units as in
     /// [`PhysicalConstants`](super::physical).
-    pub(crate) struct ThesisConstants {
-        dynamic_area,
-        drag,
-        rotational_lift,
-        translational_lift,
-        regularisation,
+    pub(crate) struct ThesisConstants<T> {
+        dynamic_area: T,
+        drag: T,
+        rotational_lift: T,
+        translational_lift: T,
+        regularisation: T,
         /// Major semi-axis, in L.
-        major,
-        damping_u_x,
-        damping_u_y,
-        damping_u_z,
-        damping_w_x,
-        damping_w_y,
-        damping_w_z,
-        creeping_spin_x,
-        creeping_spin_y,
-        creeping_spin_z,
+        major: T,
+        damping_u: Vector3<T>,
+        damping_w: Vector3<T>,
+        creeping_spin: Vector3<T>,
     }
 }
 
-impl ThesisConstants<f64> {
-    /// Only the rotational damping of the default law, times `share`.
-    fn damped(law: &PhysicalConstants<f64>, share: f64) -> Self {
-        Self {
-            dynamic_area: 0.0,
-            drag: 0.0,
-            rotational_lift: 0.0,
-            translational_lift: 0.0,
-            regularisation: 0.0,
-            major: 0.0,
-            damping_u_x: share * law.damping_u_x,
-            damping_u_y: share * law.damping_u_y,
-            damping_u_z: share * law.damping_u_z,
-            damping_w_x: share * law.damping_w_x,
-            damping_w_y: share * law.damping_w_y,
-            damping_w_z: share * law.damping_w_z,
-            creeping_spin_x: share * law.creeping_spin_x,
-            creeping_spin_y: share * law.creeping_spin_y,
-            creeping_spin_z: share * law.creeping_spin_z,
-        }
-    }
+/// Torque arm of the thesis's laws: `(1 − sin³α)·a/2` along the in-plane velocity (thesis, text
+/// after (5.18): a quarter of the major axis in ideal flow), for the semi-axis `a`.
+#[inline(always)]
+pub(super) fn pressure_arm<T: Scalar>(u: &Vector3<T>, semi_axis: T) -> Vector3<T> {
+    let tangential = (u.x * u.x + u.y * u.y).sqrt();
+    let speed = norm(u);
+    let sine = u.z.abs() * safe_inverse(speed);
+    let length = (sine.constant(1.0) - sine * sine * sine) * semi_axis * sine.constant(0.5);
+    let per_speed = length * safe_inverse(tangential);
+    Vector3::new(u.x * per_speed, u.y * per_speed, u.z.constant(0.0))
 }
 
 impl<T: Scalar> Evaluate<T> for ThesisConstants<T> {
@@ -173,14 +138,14 @@ impl<T: Scalar> Evaluate<T> for ThesisConstants<T> {
     fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
         let tangential2 = u.x * u.x + u.y * u.y;
         let speed2 = tangential2 + u.z * u.z;
-        let speed = speed2.root();
+        let speed = speed2.sqrt();
         let per_speed2 = safe_inverse(speed2);
         let sine2 = u.z * u.z * per_speed2;
-        let sine_double = speed.lit(2.0) * u.z.absolute() * tangential2.root() * per_speed2;
+        let sine_double = speed.constant(2.0) * u.z.abs() * tangential2.sqrt() * per_speed2;
         let cosine_double = (tangential2 - u.z * u.z) * per_speed2;
 
         let turning = cross(w, u);
-        let size = (turning.x * turning.x + turning.y * turning.y + turning.z * turning.z).root();
+        let size = norm(&turning);
         let per_turning = safe_inverse(size + self.regularisation * speed2);
         // ê2 = (ω × u)/|…| and ê3 = ((ω × u) × u)/|…| are W × u with W along ω and ω × u.
         let rotational =
@@ -188,19 +153,19 @@ impl<T: Scalar> Evaluate<T> for ThesisConstants<T> {
         let translational =
             self.dynamic_area * speed * self.translational_lift * cosine_double * per_turning;
 
-        let spin = (w.x * w.x + w.y * w.y).root();
-        let spin_z = w.z.absolute();
+        let spin = (w.x * w.x + w.y * w.y).sqrt();
+        let spin_z = w.z.abs();
         ViscousTerms {
             drag: self.dynamic_area * speed * self.drag * sine2,
-            creeping: Vector3::repeat(speed.lit(0.0)),
+            creeping: Vector3::repeat(speed.constant(0.0)),
             translational_lift: turning * translational,
             rotational_lift: w * rotational,
-            arm: thesis_arm(u, self.major),
+            arm: pressure_arm(u, self.major),
             arm_moves: false,
             damping: Vector3::new(
-                self.damping_u_x * speed + self.damping_w_x * spin + self.creeping_spin_x,
-                self.damping_u_y * speed + self.damping_w_y * spin + self.creeping_spin_y,
-                self.damping_u_z * speed + self.damping_w_z * spin_z + self.creeping_spin_z,
+                self.damping_u.x * speed + self.damping_w.x * spin + self.creeping_spin.x,
+                self.damping_u.y * speed + self.damping_w.y * spin + self.creeping_spin.y,
+                self.damping_u.z * speed + self.damping_w.z * spin_z + self.creeping_spin.z,
             ),
         }
     }

@@ -8,7 +8,7 @@ use super::piece::{Instant, Units};
 use super::track::{Key, MotionPath};
 use crate::Error;
 use crate::math::{to_real, to_rotation};
-use crate::motion::{MotionGraph, Numbers, Regime};
+use crate::motion::{DimensionlessNumbers, MotionGraph, Regime};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use rapier3d::math::Real;
@@ -43,7 +43,7 @@ impl Synthesizer {
     /// the body does not sink; [`Error::OutOfRange`] if the fall would take more than a million
     /// keyframes.
     pub fn new(
-        numbers: &Numbers,
+        numbers: &DimensionlessNumbers,
         length: f64,
         database: Arc<TrajectoryDatabase>,
         params: SynthesisParams,
@@ -211,7 +211,8 @@ mod tests {
     /// A leaf like the thesis's: 7.3 × 4.2 cm, 0.3 mm, 400 kg/m³.
     fn leaf(params: SynthesisParams) -> Synthesizer {
         let numbers =
-            Numbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81).unwrap();
+            DimensionlessNumbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81)
+                .unwrap();
         Synthesizer::new(&numbers, 0.073, TrajectoryDatabase::shipped(), params).unwrap()
     }
 
@@ -275,7 +276,8 @@ mod tests {
     #[test]
     fn impossible_requests_are_refused() {
         let numbers =
-            Numbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81).unwrap();
+            DimensionlessNumbers::new(Outline::Round, 0.042, 0.0003, 400.0, &Fluid::AIR, 9.81)
+                .unwrap();
         let refused = |change: &dyn Fn(&mut SynthesisParams)| {
             let mut params = SynthesisParams::default();
             change(&mut params);
@@ -289,7 +291,9 @@ mod tests {
         refused(&|p| p.deviation.width = -1.0);
         refused(&|p| p.interval = 0.0);
         refused(&|p| p.wind = f64::INFINITY);
-        let light = Numbers::new(Outline::Round, 0.04, 3e-4, 400.0, &Fluid::WATER, 9.81).unwrap();
+        let light =
+            DimensionlessNumbers::new(Outline::Round, 0.04, 3e-4, 400.0, &Fluid::WATER, 9.81)
+                .unwrap();
         let params = SynthesisParams::default();
         let database = TrajectoryDatabase::shipped();
         assert!(Synthesizer::new(&light, 0.073, database, params).is_err());

@@ -2,7 +2,7 @@
 
 use super::measured_discs::MEASURED;
 use super::{Shake, uniform_disc};
-use crate::motion::{Classifier, Numbers, Outline, PhaseDiagram, Regime, Trajectory};
+use crate::motion::{Classifier, DimensionlessNumbers, Outline, PhaseDiagram, Regime, Trajectory};
 use crate::training::{Experiment, Release};
 use crate::{DryMass, Error, Fluid, HydroProperties, ImmersedBody, ViscousLaw};
 use rapier3d::parry::shape::Cylinder;
@@ -92,7 +92,7 @@ impl Disc {
         // At high Reynolds numbers ½ρU²·1.17 = (ρ_s − ρ_f) g t; at lower ones the viscosity is what is
         // wanted, so that U follows from the same balance with the drag at the given Re.
         let drag = (64.0 / (PI * reynolds) * (1.0 + 0.138 * reynolds.powf(0.792))).max(1.17);
-        let numbers = Numbers::new(
+        let numbers = DimensionlessNumbers::new(
             Outline::Round,
             DIAMETER,
             t,
@@ -200,7 +200,8 @@ mod tests {
         for (re, i, regime) in MEASURED {
             let disc = Disc::new(re, i, regime).unwrap();
             let fluid = Fluid::new(LIQUID, 1e-6).unwrap();
-            let numbers = Numbers::of(&disc.hydro, &disc.mass, &fluid, GRAVITY).unwrap();
+            let numbers =
+                DimensionlessNumbers::of(&disc.hydro, &disc.mass, &fluid, GRAVITY).unwrap();
             // The polygon of the cylinder's mesh has a little less area than the circle.
             assert!((numbers.i_star / i - 1.0).abs() < 0.02, "{numbers:?} {i}");
         }

@@ -1,4 +1,4 @@
-//! How the motion that the crate integrated is handed to rapier.
+//! The force and the start velocities with which rapier's substeps reach the motion that was integrated.
 //!
 //! Rapier's solver takes n substeps of h = dt/n. In each it first adds `F h/m_s` to the velocity and
 //! then moves the body by the new velocity. A constant force that makes up the difference Δ of the
@@ -24,14 +24,13 @@
 //! A body in **contact** or held by a joint gets a force alone, since setting velocities would keep a
 //! pile from coming to rest.
 
-use crate::dynamics::integrate::conjugate;
-use crate::dynamics::kirchhoff::{choose, cross};
 use crate::math::Scalar;
+use crate::math::spatial::{conjugate, cross, dot, quaternion_product, select_lt};
 use rapier3d::na::{Quaternion, Vector3};
 
-/// How rapier steps, and the coefficients of the series that follow from it.
+/// How rapier divides a step, and the coefficients of the series that follow from it.
 #[derive(Clone, Copy)]
-pub(super) struct Pace {
+pub(in crate::coupling) struct SubstepScheme {
     /// Time step, s, and its inverse.
     dt: f64,
     per_dt: f64,
@@ -45,8 +44,8 @@ pub(super) struct Pace {
     cayley: f64,
 }
 
-impl Pace {
-    /// Of `substeps` substeps per step of `dt` seconds.
+impl SubstepScheme {
+    /// The scheme of `substeps` substeps per step of `dt` seconds.
     pub fn new(dt: f32, substeps: usize) -> Self {
         let n = substeps.max(1) as f64;
         let n2 = n * n;
@@ -67,7 +66,7 @@ impl Pace {
 
 /// What rapier's bodies have, and what they shall have.
 pub(super) struct Target<'a, T> {
-    pub pace: &'a Pace,
+    pub scheme: &'a SubstepScheme,
     /// Plate axes to world, now and at the end of the step.
     pub attitude: Quaternion<T>,
     pub end_attitude: Quaternion<T>,
@@ -84,13 +83,13 @@ pub(super) struct Target<'a, T> {
 }
 
 /// What rapier's bodies are given before the step.
-pub(super) struct Handover<T> {
+pub(super) struct Matched<T> {
     /// Velocities to start from.
     pub start_linear: Vector3<T>,
     pub start_angular: Vector3<T>,
     /// Accelerations, linear (m/s²) and angular (rad/s²), that the force and the torque shall cause.
-    pub push: Vector3<T>,
-    pub twist: Vector3<T>,
+    pub linear_acceleration: Vector3<T>,
+    pub angular_acceleration: Vector3<T>,
 }
 
 /// Passes over the small terms of the series; each leaves about a hundredth of the error.
@@ -98,14 +97,14 @@ const REFINEMENTS: usize = 2;
 
 impl<T: Scalar> Target<'_, T> {
     #[inline(always)]
-    pub fn hand_over(&self) -> Handover<T> {
-        let pace = self.pace;
-        let lit = |value| self.free.lit(value);
-        let (per_dt, gain) = (lit(pace.per_dt), lit(pace.gain));
-        // In contact: the whole change by the force.
-        let push = self.end_linear - self.linear;
-        let twist = self.end_angular - self.angular;
-        let (free_push, free_twist) = if pace.split {
+    pub fn matched(&self) -> Matched<T> {
+        let scheme = self.scheme;
+        let constant = |value| self.free.constant(value);
+        let (per_dt, gain) = (constant(scheme.per_dt), constant(scheme.gain));
+        // A body in contact gets the whole change by the force.
+        let linear = self.end_linear - self.linear;
+        let angular = self.end_angular - self.angular;
+        let (free_linear, free_angular) = if scheme.split {
             let mean = self.displacement * per_dt;
             let spin = self.mean_spin();
             (
@@ -113,38 +112,42 @@ impl<T: Scalar> Target<'_, T> {
                 (self.end_angular - spin) * gain,
             )
         } else {
-            (push, twist)
+            (linear, angular)
         };
-        let touching = lit(0.5);
-        Handover {
-            start_linear: choose(
-                &self.linear,
-                self.free,
-                touching,
-                &(self.end_linear - free_push),
-            ),
-            start_angular: choose(
-                &self.angular,
-                self.free,
-                touching,
-                &(self.end_angular - free_twist),
-            ),
-            push: choose(&push, self.free, touching, &free_push) * per_dt,
-            twist: choose(&twist, self.free, touching, &free_twist) * per_dt,
+        let (start_linear, start_angular) = (
+            self.end_linear - free_linear,
+            self.end_angular - free_angular,
+        );
+        // In the lanes of touching bodies `free` is 0 and below this.
+        let limit = constant(0.5);
+        let touching = |value, other| select_lt(value, self.free, limit, other);
+        Matched {
+            start_linear: touching(&self.linear, &start_linear),
+            start_angular: touching(&self.angular, &start_angular),
+            linear_acceleration: touching(&linear, &free_linear) * per_dt,
+            angular_acceleration: touching(&angular, &free_angular) * per_dt,
         }
     }
 
     /// The mean angular velocity with which rapier's substeps turn the body to `end_attitude`.
     #[inline(always)]
     fn mean_spin(&self) -> Vector3<T> {
-        let pace = self.pace;
-        let lit = |value| self.free.lit(value);
-        let (one, two) = (lit(1.0), lit(2.0));
-        let nothing = Vector3::repeat(lit(0.0));
-        let (dt, per_dt, gain) = (lit(pace.dt), lit(pace.per_dt), lit(pace.gain));
-        let (kappa, mu, lambda) = (lit(pace.kappa), lit(pace.mu), lit(pace.lambda));
-        let cayley = lit(pace.cayley);
-        let turn = product(&self.end_attitude, &conjugate(&self.attitude));
+        let scheme = self.scheme;
+        let constant = |value| self.free.constant(value);
+        let (one, two) = (constant(1.0), constant(2.0));
+        let nothing = Vector3::repeat(constant(0.0));
+        let (dt, per_dt, gain) = (
+            constant(scheme.dt),
+            constant(scheme.per_dt),
+            constant(scheme.gain),
+        );
+        let (kappa, mu, lambda) = (
+            constant(scheme.kappa),
+            constant(scheme.mu),
+            constant(scheme.lambda),
+        );
+        let cayley = constant(scheme.cayley);
+        let turn = quaternion_product(&self.end_attitude, &conjugate(&self.attitude));
         let turn = rotation_vector(&turn);
         // τ = gain (ε − σ), so that κσ × τ is linear in σ: (1 + κ gain ε ×) σ = R + the rest.
         let end = self.end_angular * dt;
@@ -161,8 +164,8 @@ impl<T: Scalar> Target<'_, T> {
                     + change * (two * kappa * aligned))
                     * cayley;
             // Beyond a radian or two the series means nothing.
-            let within = dot(&small, &small) * lit(16.0);
-            let small = choose(&small, within, mean2, &nothing);
+            let within = dot(&small, &small) * constant(16.0);
+            let small = select_lt(&small, within, mean2, &nothing);
             mean = unskewed(&skew, per, &(turn + small));
         }
         mean * per_dt
@@ -175,43 +178,26 @@ fn unskewed<T: Scalar>(s: &Vector3<T>, per: T, b: &Vector3<T>) -> Vector3<T> {
     (b - cross(s, b) + s * dot(s, b)) * per
 }
 
-/// Quaternion product, written out.
-#[inline(always)]
-fn product<T: Scalar>(p: &Quaternion<T>, q: &Quaternion<T>) -> Quaternion<T> {
-    let (p, q) = (&p.coords, &q.coords);
-    Quaternion::new(
-        p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z,
-        p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
-        p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x,
-        p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w,
-    )
-}
-
-#[inline(always)]
-fn dot<T: Scalar>(a: &Vector3<T>, b: &Vector3<T>) -> T {
-    a.x * b.x + a.y * b.y + a.z * b.z
-}
-
 /// Rotation vector of a unit quaternion, the shorter way round: `4 atan(t)` along the axis, with
 /// t = tan(θ/4) ≤ 1 and the arc tangent as its series, to 5e-5 for turns by two radians.
 #[inline(always)]
 fn rotation_vector<T: Scalar>(q: &Quaternion<T>) -> Vector3<T> {
     let (q, w) = (q.coords.xyz(), q.coords.w);
-    let one = w.lit(1.0);
-    let sign = w.lit(-1.0).where_less(w, w.lit(0.0), one);
+    let one = w.constant(1.0);
+    let sign = w.constant(-1.0).select_lt(w, w.constant(0.0), one);
     let t = q * (sign / (one + w * sign));
     let t2 = dot(&t, &t);
-    let mut series = w.lit(-1.0 / 11.0);
+    let mut series = w.constant(-1.0 / 11.0);
     for term in [1.0 / 9.0, -1.0 / 7.0, 0.2, -1.0 / 3.0, 1.0] {
-        series = series * t2 + w.lit(term);
+        series = series * t2 + w.constant(term);
     }
-    t * (series * w.lit(4.0))
+    t * (series * w.constant(4.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dynamics::integrate::rotate;
+    use crate::math::spatial::rotate;
     use rapier3d::math::{Rotation, Vector};
 
     fn to_nalgebra(v: Vector) -> Vector3<f32> {
@@ -226,7 +212,7 @@ mod tests {
         Vector::new(v.x, v.y, v.z)
     }
 
-    /// Replays what rapier's solver does with the handover (velocity increment, then a Cayley
+    /// Replays what rapier's solver does with the force and torque (velocity increment, then a Cayley
     /// rotation, n times) for bodies that turn by up to a radian per step about a turning axis.
     #[test]
     fn replayed_substeps_reach_the_target() {
@@ -240,7 +226,7 @@ mod tests {
             let (linear, end_linear) = (Vector::new(1.0, 2.0, 3.0), Vector::new(0.5, -1.0, 3.5));
             let moved = (linear + end_linear) * (0.5 * dt);
             let target = Target {
-                pace: &Pace::new(dt, 4),
+                scheme: &SubstepScheme::new(dt, 4),
                 attitude: quaternion(start),
                 end_attitude: quaternion(end),
                 linear: to_nalgebra(linear),
@@ -250,15 +236,15 @@ mod tests {
                 displacement: to_nalgebra(moved),
                 free: 1.0,
             };
-            let handover = target.hand_over();
+            let matched = target.matched();
             let (mut v, mut w) = (
-                vector(&handover.start_linear),
-                vector(&handover.start_angular),
+                vector(&matched.start_linear),
+                vector(&matched.start_angular),
             );
             let (mut x, mut q) = (Vector::ZERO, start);
             for _ in 0..4 {
-                v += vector(&handover.push) * (dt / 4.0);
-                w += vector(&handover.twist) * (dt / 4.0);
+                v += vector(&matched.linear_acceleration) * (dt / 4.0);
+                w += vector(&matched.angular_acceleration) * (dt / 4.0);
                 x += v * (dt / 4.0);
                 let a = w * (dt / 8.0);
                 q = (Rotation::from_xyzw(a.x, a.y, a.z, 1.0) * q).normalize();

@@ -1,10 +1,9 @@
 //! Synthesized falls played by rapier's bodies (thesis chapter 3), with collisions.
 
-use super::immersion::Immersion;
-use super::played::{Slot, Step, touches};
 use super::player::MotionPlayer;
-use super::sets::RapierSets;
-use crate::Error;
+use super::player_state::{PlayStep, PlayerState, touches};
+use crate::coupling::{Immersion, RapierSets};
+use crate::error::Error;
 use crate::flow::{Flow, FlowSample};
 use crate::motion::path::WindResponse;
 use rapier3d::dynamics::RigidBodyHandle;
@@ -34,13 +33,8 @@ pub enum Playing {
 /// go on bit by bit as they would have. Loading refuses what cannot be: another version, numbers that
 /// are not finite, paths that are not there.
 #[derive(Clone, Default)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Deserialize),
-    serde(try_from = "super::snapshot::PlayersSnapshot<crate::motion::path::MotionPath>")
-)]
 pub struct MotionPlayers {
-    pub(super) slots: Vec<Slot>,
+    pub(super) states: Vec<PlayerState>,
     pub(super) lookup: HashMap<RigidBodyHandle, u32>,
     wind: Option<(Arc<dyn Flow>, WindResponse)>,
     pub(super) time: f64,
@@ -53,8 +47,8 @@ pub struct MotionPlayers {
 /// Which players touch another body.
 #[derive(Clone, Default)]
 struct Touching {
-    /// By slot, unless the world is `crowded`.
-    slots: Vec<bool>,
+    /// By index of the player's state, unless the world is `crowded`.
+    states: Vec<bool>,
     crowded: bool,
 }
 
@@ -84,12 +78,12 @@ impl MotionPlayers {
     /// Those of [`MotionPlayer::check`].
     pub fn play(&mut self, handle: RigidBodyHandle, player: &MotionPlayer) -> Result<(), Error> {
         player.check()?;
-        let slot = Slot::new(handle, player);
+        let state = PlayerState::new(handle, player);
         match self.lookup.get(&handle) {
-            Some(index) => self.slots[*index as usize] = slot,
+            Some(index) => self.states[*index as usize] = state,
             None => {
-                self.lookup.insert(handle, self.slots.len() as u32);
-                self.slots.push(slot);
+                self.lookup.insert(handle, self.states.len() as u32);
+                self.states.push(state);
             }
         }
         Ok(())
@@ -109,8 +103,8 @@ impl MotionPlayers {
         let Some(index) = self.lookup.remove(&handle) else {
             return false;
         };
-        self.slots.swap_remove(index as usize);
-        if let Some(moved) = self.slots.get(index as usize) {
+        self.states.swap_remove(index as usize);
+        if let Some(moved) = self.states.get(index as usize) {
             self.lookup.insert(moved.handle, index);
         }
         true
@@ -118,21 +112,21 @@ impl MotionPlayers {
 
     /// Number of bodies that are played or wait.
     pub fn len(&self) -> usize {
-        self.slots.len()
+        self.states.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.slots.is_empty()
+        self.states.is_empty()
     }
 
     /// What a body does; `None` if it is not played.
     pub fn playing(&self, handle: RigidBodyHandle) -> Option<Playing> {
-        let slot = &self.slots[*self.lookup.get(&handle)? as usize];
-        Some(if slot.waiting {
+        let state = &self.states[*self.lookup.get(&handle)? as usize];
+        Some(if state.waiting {
             Playing::Waiting
         } else {
-            Playing::At(slot.clock)
+            Playing::At(state.clock)
         })
     }
 
@@ -144,7 +138,7 @@ impl MotionPlayers {
             return;
         }
         let solver = sets.integration_parameters.num_solver_iterations as Real;
-        let step = Step {
+        let step = PlayStep {
             dt,
             // A constant acceleration over a step of n substeps moves a body by (n + 1)/2n of its Δv dt.
             sag: sets.gravity * (dt * (0.5 + 0.5 / solver)),
@@ -152,10 +146,10 @@ impl MotionPlayers {
         };
         if let Some((flow, _)) = &self.wind {
             self.points.clear();
-            self.points.extend(self.slots.iter().map(|slot| {
+            self.points.extend(self.states.iter().map(|state| {
                 sets.bodies
-                    .get(slot.handle)
-                    .map_or(slot.origin, |body| body.center_of_mass())
+                    .get(state.handle)
+                    .map_or(state.origin, |body| body.center_of_mass())
             }));
             self.samples
                 .resize(self.points.len(), FlowSample::default());
@@ -163,30 +157,30 @@ impl MotionPlayers {
         }
         self.find_touching(sets);
         self.finished.clear();
-        for (number, group) in self.slots.chunks_mut(GROUP).enumerate() {
+        for (number, group) in self.states.chunks_mut(GROUP).enumerate() {
             bring(group, dt);
-            for (place, slot) in group.iter_mut().enumerate() {
+            for (place, state) in group.iter_mut().enumerate() {
                 let index = number * GROUP + place;
-                let Some(body) = sets.bodies.get_mut(slot.handle) else {
-                    self.finished.push(slot.handle);
+                let Some(body) = sets.bodies.get_mut(state.handle) else {
+                    self.finished.push(state.handle);
                     continue;
                 };
-                if !slot.watched {
-                    slot.watch(body, sets.colliders);
+                if !state.watched {
+                    state.watch(body, sets.colliders);
                 }
                 let wind = step.angle.map(|_| self.samples[index].velocity);
-                let was_taken = slot.taken;
+                let was_taken = state.taken;
                 let touching = if self.touching.crowded {
                     touches(body, sets.narrow_phase)
                 } else {
-                    self.touching.slots[index]
+                    self.touching.states[index]
                 };
-                if !slot.advance(body, touching, wind, &step) {
-                    self.finished.push(slot.handle);
-                } else if slot.taken != was_taken
+                if !state.advance(body, touching, wind, &step) {
+                    self.finished.push(state.handle);
+                } else if state.taken != was_taken
                     && let Some(immersion) = &mut immersion
                 {
-                    immersion.set_body_enabled(slot.handle, !slot.taken);
+                    immersion.set_body_enabled(state.handle, !state.taken);
                 }
             }
         }
@@ -201,11 +195,11 @@ impl MotionPlayers {
     /// Marks the players that touch something where the world's pairs are few: to ask for a body's pairs
     /// one by one takes three look-ups in memory that nothing else in the step needs.
     fn find_touching(&mut self, sets: &RapierSets) {
-        let Touching { slots, crowded } = &mut self.touching;
-        slots.clear();
-        slots.resize(self.slots.len(), false);
+        let Touching { states, crowded } = &mut self.touching;
+        states.clear();
+        states.resize(self.states.len(), false);
         // A touching pair costs some four times what a mere pair does.
-        let mut left = self.slots.len();
+        let mut left = self.states.len();
         for pair in sets.narrow_phase.contact_pairs() {
             let active = pair.has_any_active_contact();
             let cost = if active { 4 } else { 1 };
@@ -219,8 +213,8 @@ impl MotionPlayers {
             }
             for collider in [pair.collider1, pair.collider2] {
                 let parent = sets.colliders.get(collider).and_then(|c| c.parent());
-                if let Some(slot) = parent.and_then(|body| self.lookup.get(&body)) {
-                    slots[*slot as usize] = true;
+                if let Some(state) = parent.and_then(|body| self.lookup.get(&body)) {
+                    states[*state as usize] = true;
                 }
             }
         }
@@ -231,10 +225,10 @@ impl MotionPlayers {
 /// Reads a little of the keys that a group's step is about to need, so that the machine fetches them all
 /// at the same time.
 #[inline]
-fn bring(group: &[Slot], dt: Real) {
+fn bring(group: &[PlayerState], dt: Real) {
     let mut sum = 0.0;
-    for slot in group {
-        let [a, b] = slot.path.keys_around(slot.clock + dt);
+    for state in group {
+        let [a, b] = state.path.keys_around(state.clock + dt);
         sum += a.position.x + b.attitude.w;
     }
     std::hint::black_box(sum);
@@ -243,9 +237,9 @@ fn bring(group: &[Slot], dt: Real) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coupling::{AtContact, Drive};
     use crate::motion::Regime;
     use crate::motion::path::{Key, MotionPath};
+    use crate::playback::{AtContact, Drive};
     use rapier3d::prelude::*;
 
     /// What the world's pairs say of a player is what its own pairs say. Bodies land on a floor one after the
@@ -284,12 +278,12 @@ mod tests {
         for _ in 0..120 {
             players.before_step(&mut RapierSets::of(&mut world), None);
             assert_eq!(players.len(), 60);
-            for (slot, marked) in players.slots.iter().zip(&players.touching.slots) {
+            for (state, marked) in players.states.iter().zip(&players.touching.states) {
                 if players.touching.crowded {
                     crowded += 1;
                     continue;
                 }
-                let touching = touches(&world.bodies[slot.handle], &world.narrow_phase);
+                let touching = touches(&world.bodies[state.handle], &world.narrow_phase);
                 assert_eq!(*marked, touching);
                 *(if touching { &mut found } else { &mut apart }) += 1;
             }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// A played body.
 #[derive(Clone)]
-pub(super) struct Slot {
+pub(super) struct PlayerState {
     pub handle: RigidBodyHandle,
     pub path: Arc<MotionPath>,
     pub origin: Vector,
@@ -27,7 +27,7 @@ pub(super) struct Slot {
     /// Velocity taken from the wind, m/s.
     pub blown: Vector,
     /// What a contact left of a kinematic body's own motion.
-    pub astray: Option<Astray>,
+    pub deflection: Option<Deflection>,
     /// Whether its colliders have been told to look for contacts that rapier leaves out.
     pub watched: bool,
     /// The path at `clock`, turned: position from the origin, and attitude of the body's frame.
@@ -36,25 +36,25 @@ pub(super) struct Slot {
 
 /// How a kinematic body differs from its path after a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Astray {
+pub(super) struct Deflection {
     /// Rotation vector from the path's attitude, rad.
     pub rotation: Vector,
     /// Velocity relative to the path's, m/s.
     pub velocity: Vector,
 }
 
-/// Time in which such differences fade, s: the default compliance.
-const ASTRAY: Real = 0.1;
+/// Time in which such differences fade, s: as long as the default compliance.
+const DEFLECTION_TIME: Real = 0.1;
 
 /// What is the same for all bodies in a step.
-pub(super) struct Step {
+pub(super) struct PlayStep {
     pub dt: Real,
     /// Velocity by which gravity moves a body within the step.
     pub sag: Vector,
     pub angle: Option<WindResponse>,
 }
 
-impl Slot {
+impl PlayerState {
     /// A body at the beginning of its path.
     pub fn new(handle: RigidBodyHandle, player: &MotionPlayer) -> Self {
         let release = player.release(Vector::ZERO);
@@ -72,7 +72,7 @@ impl Slot {
             waiting: false,
             taken: false,
             blown: Vector::ZERO,
-            astray: None,
+            deflection: None,
             watched: false,
         }
     }
@@ -101,7 +101,7 @@ impl Slot {
         body: &mut RigidBody,
         touching: bool,
         wind: Option<Vector>,
-        step: &Step,
+        step: &PlayStep,
     ) -> bool {
         match self.drive {
             Drive::Kinematic if body.body_type() == RigidBodyType::KinematicPositionBased => {
@@ -140,19 +140,19 @@ impl Slot {
 
     /// Moves a kinematic body to where the path is at the end of the step.
     #[inline]
-    fn carry(&mut self, body: &mut RigidBody, wind: Option<Vector>, step: &Step) {
+    fn carry(&mut self, body: &mut RigidBody, wind: Option<Vector>, step: &PlayStep) {
         self.taken = true;
         let lean = self.blow(wind, step);
         self.proceed(step.dt);
         let mut rotation = leaning(lean, self.now.1);
-        if let Some(astray) = &mut self.astray {
-            let left = ASTRAY / (ASTRAY + step.dt);
-            astray.rotation *= left;
-            astray.velocity *= left;
-            self.origin += astray.velocity * step.dt;
-            rotation = Rotation::from_scaled_axis(astray.rotation) * rotation;
-            if astray.rotation.length() < 1e-4 && astray.velocity.length() < 1e-4 {
-                self.astray = None;
+        if let Some(deflection) = &mut self.deflection {
+            let left = DEFLECTION_TIME / (DEFLECTION_TIME + step.dt);
+            deflection.rotation *= left;
+            deflection.velocity *= left;
+            self.origin += deflection.velocity * step.dt;
+            rotation = Rotation::from_scaled_axis(deflection.rotation) * rotation;
+            if deflection.rotation.length() < 1e-4 && deflection.velocity.length() < 1e-4 {
+                self.deflection = None;
             }
         }
         let com = self.origin + self.now.0;
@@ -171,7 +171,7 @@ impl Slot {
         }
         body.set_body_type(RigidBodyType::Dynamic, true);
         (self.waiting, self.taken, self.free) = (true, false, 0.0);
-        self.astray = None;
+        self.deflection = None;
     }
 
     /// Makes a body kinematic again that nothing touches any more: its path goes on from where it is, and
@@ -181,7 +181,7 @@ impl Slot {
         self.anchor(*body.position() * body.local_center_of_mass());
         let path = self.turn * self.path.at(self.clock).velocity + self.blown;
         let away = *body.rotation() * self.now.1.inverse();
-        self.astray = Some(Astray {
+        self.deflection = Some(Deflection {
             rotation: away.to_scaled_axis(),
             velocity: body.linvel() - path,
         });
@@ -194,7 +194,7 @@ impl Slot {
         touching: bool,
         compliance: Real,
         wind: Option<Vector>,
-        step: &Step,
+        step: &PlayStep,
     ) -> bool {
         let dt = step.dt;
         let touching = touching && self.at_contact != AtContact::Ignore;
@@ -254,7 +254,7 @@ impl Slot {
 
     /// Takes on the wind; returns how far it leans the body.
     #[inline]
-    fn blow(&mut self, wind: Option<Vector>, step: &Step) -> Option<Rotation> {
+    fn blow(&mut self, wind: Option<Vector>, step: &PlayStep) -> Option<Rotation> {
         let (wind, response) = (wind?, step.angle?);
         let wind = if wind.is_finite() { wind } else { Vector::ZERO };
         self.blown += (wind - self.blown) * (step.dt / (response.delay + step.dt));

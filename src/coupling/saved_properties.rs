@@ -1,8 +1,9 @@
-//! What a body was before it was immersed.
+//! What a rapier body was before it was immersed.
 
 use super::from_rapier::{inertia_error, uniform_density};
-use super::kind::Kind;
-use crate::{DryMass, Error};
+use super::shared_constants::SharedConstants;
+use crate::body::DryMass;
+use crate::error::Error;
 use rapier3d::dynamics::{
     MassProperties, RigidBodyAdditionalMassProps, RigidBodyHandle, RigidBodySet,
 };
@@ -15,7 +16,7 @@ use rapier3d::math::Pose;
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize)
 )]
-pub(super) struct Original {
+pub(super) struct SavedProperties {
     /// The body's own mass, without fluid.
     pub dry: DryMass,
     colliders: Vec<(ColliderHandle, ColliderMass)>,
@@ -34,7 +35,7 @@ enum ColliderMass {
     Explicit(MassProperties),
 }
 
-impl Original {
+impl SavedProperties {
     /// Reads a body as it is. Also returns the relative error of rapier's own inertia for it.
     ///
     /// # Errors
@@ -57,7 +58,7 @@ impl Original {
             );
             Some((*handle, mass))
         });
-        let original = Self {
+        let saved = Self {
             dry,
             colliders: masses.collect(),
             additional: body
@@ -68,41 +69,41 @@ impl Original {
             gyroscopic: body.gyroscopic_forces_enabled(),
             fast_rotation: body.is_fast_rotation_allowed(),
         };
-        Ok((original, error))
+        Ok((saved, error))
     }
 
-    /// Gives the body the mass properties and switches of its kind. Returns the relative error of
+    /// Gives the body the mass properties and switches of an immersed one. Returns the relative error of
     /// the inertia that rapier makes of it.
     pub fn immerse(
         &self,
-        kind: &Kind,
+        constants: &SharedConstants,
         mass: f64,
         handle: RigidBodyHandle,
         bodies: &mut RigidBodySet,
         colliders: &mut ColliderSet,
     ) -> f64 {
-        self.set_mass(kind, mass, handle, bodies, colliders);
+        self.set_mass(constants, mass, handle, bodies, colliders);
         let body = &mut bodies[handle];
         body.enable_gyroscopic_forces(false);
         body.set_allow_fast_rotation(true);
         body.recompute_mass_properties_from_colliders(colliders);
-        inertia_error(&body.mass_properties().local_mprops, &kind.wet(mass))
+        inertia_error(&body.mass_properties().local_mprops, &constants.wet(mass))
     }
 
-    /// Gives the body the mass properties of its kind with another scalar mass, kg.
+    /// Gives the body the mass properties of an immersed one with another scalar mass, kg.
     ///
     /// A single collider carries them all; of several, the first. Carrying them as *additional* mass
     /// properties would send them through the sum with a collider of no mass but with a pose, and so
     /// through the eigenvalue solver that fails for small bodies (see [`DryMass::of_body`]).
     pub fn set_mass(
         &self,
-        kind: &Kind,
+        constants: &SharedConstants,
         mass: f64,
         handle: RigidBodyHandle,
         bodies: &mut RigidBodySet,
         colliders: &mut ColliderSet,
     ) {
-        let properties = kind.wet(mass).to_mass_properties();
+        let properties = constants.wet(mass).to_mass_properties();
         let mut carried = false;
         for (handle, _) in &self.colliders {
             let Some(collider) = colliders.get_mut(*handle) else {

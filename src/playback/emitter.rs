@@ -1,11 +1,11 @@
 //! Suspensions: bodies that enter a scene all the time, some played, some driven by forces (thesis
 //! § 7.3: snow, dust, confetti).
 
-use super::immersion::Immersion;
 use super::player::{AtContact, Drive, MotionPlayer};
 use super::players::MotionPlayers;
-use crate::Error;
 use crate::body::ImmersedBody;
+use crate::coupling::Immersion;
+use crate::error::Error;
 use crate::motion::path::MotionPath;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -61,11 +61,6 @@ impl Default for EmitterParams {
 /// With the feature `serde-serialize` it can be saved and goes on alike; loading refuses what
 /// [`Emitter::new`] does, and other versions.
 #[derive(Clone)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Deserialize),
-    serde(try_from = "super::snapshot::EmitterSnapshot<MotionPath>")
-)]
 pub struct Emitter {
     pub(super) params: EmitterParams,
     pub(super) body: RigidBody,

@@ -1,17 +1,18 @@
 //! Snapshots of players and emitters: what is written, and what is refused when it is read.
 
 use super::emitter::{Emitter, EmitterParams};
-use super::played::{Astray, Slot};
 use super::player::{AtContact, Drive};
+use super::player_state::{Deflection, PlayerState};
 use super::players::MotionPlayers;
-use crate::Error;
 use crate::body::ImmersedBody;
+use crate::error::Error;
 use crate::motion::path::MotionPath;
 use rand_pcg::Pcg64Mcg;
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::geometry::ColliderBuilder;
 use rapier3d::math::{Real, Rotation, Vector};
-use serde::{Deserialize, Serialize, Serializer};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -39,15 +40,15 @@ fn check_rotation(what: &'static str, rotation: Rotation) -> Result<(), Error> {
 
 /// Players: paths that they share are written once. `P` is [`MotionPath`] or a reference to one.
 #[derive(Serialize, Deserialize)]
-pub(super) struct PlayersSnapshot<P> {
+struct PlayersSnapshot<P> {
     version: u32,
     time: f64,
     paths: Vec<P>,
-    slots: Vec<SlotSnapshot>,
+    states: Vec<PlayerSnapshot>,
 }
 
 #[derive(Serialize, Deserialize)]
-struct SlotSnapshot {
+struct PlayerSnapshot {
     handle: RigidBodyHandle,
     /// Index of the path.
     path: u32,
@@ -63,7 +64,7 @@ struct SlotSnapshot {
     taken: bool,
     watched: bool,
     blown: Vector,
-    astray: Option<[Vector; 2]>,
+    deflection: Option<[Vector; 2]>,
     now: (Vector, Rotation),
 }
 
@@ -71,41 +72,48 @@ impl Serialize for MotionPlayers {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut paths: Vec<&MotionPath> = Vec::new();
         let mut known = HashMap::new();
-        let slots = self.slots.iter().map(|slot| {
-            let path = *known.entry(Arc::as_ptr(&slot.path)).or_insert_with(|| {
-                paths.push(&slot.path);
+        let states = self.states.iter().map(|state| {
+            let path = *known.entry(Arc::as_ptr(&state.path)).or_insert_with(|| {
+                paths.push(&state.path);
                 paths.len() as u32 - 1
             });
-            SlotSnapshot {
-                handle: slot.handle,
+            PlayerSnapshot {
+                handle: state.handle,
                 path,
-                origin: slot.origin,
-                turn: slot.turn,
-                to_plate: slot.to_plate,
-                drive: slot.drive,
-                at_contact: slot.at_contact,
-                clock: slot.clock,
-                free: slot.free.is_finite().then_some(slot.free),
-                waiting: slot.waiting,
-                taken: slot.taken,
-                watched: slot.watched,
-                blown: slot.blown,
-                astray: slot.astray.map(|a| [a.rotation, a.velocity]),
-                now: slot.now,
+                origin: state.origin,
+                turn: state.turn,
+                to_plate: state.to_plate,
+                drive: state.drive,
+                at_contact: state.at_contact,
+                clock: state.clock,
+                free: state.free.is_finite().then_some(state.free),
+                waiting: state.waiting,
+                taken: state.taken,
+                watched: state.watched,
+                blown: state.blown,
+                deflection: state.deflection.map(|d| [d.rotation, d.velocity]),
+                now: state.now,
             }
         });
-        let slots = slots.collect();
+        let states = states.collect();
         let snapshot = PlayersSnapshot {
             version: VERSION,
             time: self.time,
             paths,
-            slots,
+            states,
         };
         snapshot.serialize(serializer)
     }
 }
 
-impl SlotSnapshot {
+impl<'de> Deserialize<'de> for MotionPlayers {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let snapshot = PlayersSnapshot::<MotionPath>::deserialize(deserializer)?;
+        Self::try_from(snapshot).map_err(D::Error::custom)
+    }
+}
+
+impl PlayerSnapshot {
     fn check(&self) -> Result<(), Error> {
         check_vector("origin", self.origin)?;
         check_vector("velocity of a played body from the wind", self.blown)?;
@@ -113,7 +121,7 @@ impl SlotSnapshot {
         check_rotation("turn of a path", self.turn)?;
         check_rotation("axes of a played body", self.to_plate)?;
         check_rotation("attitude of a played body", self.now.1)?;
-        for part in self.astray.into_iter().flatten() {
+        for part in self.deflection.into_iter().flatten() {
             check_vector("deflection of a played body", part)?;
         }
         self.drive.check()?;
@@ -135,35 +143,35 @@ impl TryFrom<PlayersSnapshot<MotionPath>> for MotionPlayers {
         let paths: Vec<_> = snapshot.paths.into_iter().map(Arc::new).collect();
         let mut players = Self::default();
         players.time = time;
-        for (index, slot) in snapshot.slots.into_iter().enumerate() {
-            slot.check()?;
-            let path = paths.get(slot.path as usize).ok_or(Error::OutOfRange {
+        for (index, state) in snapshot.states.into_iter().enumerate() {
+            state.check()?;
+            let path = paths.get(state.path as usize).ok_or(Error::OutOfRange {
                 parameter: "path of a player",
                 low: 0.0,
                 high: paths.len() as f64 - 1.0,
-                value: f64::from(slot.path),
+                value: f64::from(state.path),
             })?;
-            let before = players.lookup.insert(slot.handle, index as u32);
+            let before = players.lookup.insert(state.handle, index as u32);
             let once = before.is_none();
             Error::check("player", index as f64, once, "the only one of its body")?;
-            players.slots.push(Slot {
-                handle: slot.handle,
+            players.states.push(PlayerState {
+                handle: state.handle,
                 path: path.clone(),
-                origin: slot.origin,
-                turn: slot.turn,
-                to_plate: slot.to_plate,
-                drive: slot.drive,
-                at_contact: slot.at_contact,
-                clock: slot.clock,
-                free: slot.free.unwrap_or(Real::INFINITY),
-                waiting: slot.waiting,
-                taken: slot.taken,
-                watched: slot.watched,
-                blown: slot.blown,
-                astray: slot
-                    .astray
-                    .map(|[rotation, velocity]| Astray { rotation, velocity }),
-                now: slot.now,
+                origin: state.origin,
+                turn: state.turn,
+                to_plate: state.to_plate,
+                drive: state.drive,
+                at_contact: state.at_contact,
+                clock: state.clock,
+                free: state.free.unwrap_or(Real::INFINITY),
+                waiting: state.waiting,
+                taken: state.taken,
+                watched: state.watched,
+                blown: state.blown,
+                deflection: state
+                    .deflection
+                    .map(|[rotation, velocity]| Deflection { rotation, velocity }),
+                now: state.now,
             });
         }
         Ok(players)
@@ -172,7 +180,7 @@ impl TryFrom<PlayersSnapshot<MotionPath>> for MotionPlayers {
 
 /// An emitter; `P` as above.
 #[derive(Serialize, Deserialize)]
-pub(super) struct EmitterSnapshot<P> {
+struct EmitterSnapshot<P> {
     version: u32,
     params: EmitterParams,
     body: RigidBody,
@@ -211,6 +219,13 @@ impl Serialize for Emitter {
             alive: self.alive.iter().copied().collect(),
         };
         snapshot.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Emitter {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let snapshot = EmitterSnapshot::<MotionPath>::deserialize(deserializer)?;
+        Self::try_from(snapshot).map_err(D::Error::custom)
     }
 }
 

@@ -5,13 +5,47 @@
 //! normal, `m_s = 1/(n·𝕄⁻¹n)`, so that the solver finds the right impulse; after the step the
 //! velocity change that this impulse λ really causes, `𝕄⁻¹λ`, replaces `λ/m_s`.
 
-use super::kind::Kind;
-use crate::math::{to_f64, to_quaternion};
-use rapier3d::dynamics::{RigidBody, RigidBodySet};
-use rapier3d::geometry::{ColliderHandle, ColliderSet, ContactPair, NarrowPhase};
+use super::workspace::CloseBodies;
+use crate::coupling::rapier_sets::RapierSets;
+use crate::coupling::registry::Registry;
+use crate::coupling::shared_constants::SharedConstants;
+use crate::math::{to_f64, to_quaternion, to_real};
+use rapier3d::dynamics::RigidBody;
+use rapier3d::geometry::{ColliderHandle, ContactPair, NarrowPhase};
 use rapier3d::math::{Real, Vector};
 use rapier3d::na::Vector6;
 use rapier3d::parry::query::contact;
+
+/// Marks the bodies that meet others where these are few, so that the rest need not be asked for
+/// their pairs one by one.
+pub(super) fn find_close(
+    registry: &Registry,
+    heavy_fluid: bool,
+    sets: &RapierSets,
+    close: &mut CloseBodies,
+) {
+    close.marked.clear();
+    close.marked.resize(registry.states().len(), false);
+    close.crowded = false;
+    // Pairs without a contact yet matter only to bodies that drag much fluid along.
+    let mut few = sets.islands.num_active_bodies() / 4;
+    for pair in sets.narrow_phase.contact_pairs() {
+        if !heavy_fluid && !pair.has_any_active_contact() {
+            continue;
+        }
+        if few == 0 {
+            close.crowded = true;
+            return;
+        }
+        few -= 1;
+        for collider in [pair.collider1, pair.collider2] {
+            let parent = sets.colliders.get(collider).and_then(|c| c.parent());
+            if let Some(index) = parent.and_then(|body| registry.index(body)) {
+                close.marked[index] = true;
+            }
+        }
+    }
+}
 
 /// Visits the contacts of a body as the narrow phase last saw them.
 fn for_each_pair<'a>(
@@ -33,10 +67,9 @@ fn for_each_pair<'a>(
 /// the mass. For bodies that drag much fluid along, pairs that could meet in this step are therefore
 /// asked for their normal here.
 pub(super) fn normal(
-    kind: &Kind,
+    shared: &SharedConstants,
     body: &RigidBody,
-    narrow_phase: &NarrowPhase,
-    world: Surroundings,
+    sets: &RapierSets,
 ) -> Option<Vector> {
     let mut sum = Vector::ZERO;
     let mut touching = false;
@@ -46,7 +79,7 @@ pub(super) fn normal(
         sum += normal * (sign * weight);
         touching = true;
     };
-    for_each_pair(body, narrow_phase, |_, pair| {
+    for_each_pair(body, sets.narrow_phase, |_, pair| {
         let Some(contacts) = pair.rigid() else {
             return;
         };
@@ -59,8 +92,8 @@ pub(super) fn normal(
             }
         }
         if !met
-            && kind.heavy_fluid
-            && let Some(normal) = world.approach(pair)
+            && shared.heavy_fluid
+            && let Some(normal) = approach(pair, sets)
         {
             add(normal, 1e-12);
         }
@@ -68,45 +101,35 @@ pub(super) fn normal(
     touching.then(|| sum.normalize_or(Vector::Y))
 }
 
-/// What a body is among.
-#[derive(Clone, Copy)]
-pub(super) struct Surroundings<'a> {
-    pub bodies: &'a RigidBodySet,
-    pub colliders: &'a ColliderSet,
-    pub dt: Real,
-}
-
-impl Surroundings<'_> {
-    /// The normal along which the colliders of a pair may meet within the step.
-    fn approach(&self, pair: &ContactPair) -> Option<Vector> {
-        let (a, b) = (
-            self.colliders.get(pair.collider1)?,
-            self.colliders.get(pair.collider2)?,
-        );
-        let [speed_a, speed_b] = [a, b].map(|collider| {
-            let parent = collider.parent().and_then(|handle| self.bodies.get(handle));
-            parent.map_or(0.0, |body| {
-                let reach = body.mass_properties().max_extent();
-                body.linvel().length() + body.angvel().length() * reach
-            })
-        });
-        let reach = (speed_a + speed_b) * self.dt;
-        let contact = contact(a.position(), a.shape(), b.position(), b.shape(), reach);
-        Some(contact.ok()??.normal1)
-    }
+/// The normal along which the colliders of a pair may meet within the step.
+fn approach(pair: &ContactPair, sets: &RapierSets) -> Option<Vector> {
+    let (a, b) = (
+        sets.colliders.get(pair.collider1)?,
+        sets.colliders.get(pair.collider2)?,
+    );
+    let [speed_a, speed_b] = [a, b].map(|collider| {
+        let parent = collider.parent().and_then(|handle| sets.bodies.get(handle));
+        parent.map_or(0.0, |body| {
+            let reach = body.mass_properties().max_extent();
+            body.linvel().length() + body.angvel().length() * reach
+        })
+    });
+    let reach = (speed_a + speed_b) * sets.integration_parameters.dt;
+    let contact = contact(a.position(), a.shape(), b.position(), b.shape(), reach);
+    Some(contact.ok()??.normal1)
 }
 
 /// The scalar mass that the body shows along `normal` (world axes), kg.
-pub(super) fn mass_along(kind: &Kind, body: &RigidBody, normal: Vector) -> f64 {
+pub(super) fn mass_along(shared: &SharedConstants, body: &RigidBody, normal: Vector) -> f64 {
     let n = to_quaternion(*body.rotation()).inverse() * to_f64(normal);
-    let response = kind.inverse_mass.fixed_view::<3, 3>(0, 0);
+    let response = shared.inverse_mass.fixed_view::<3, 3>(0, 0);
     1.0 / n.dot(&(response * n))
 }
 
 /// What has to be added to linear and angular velocity (world axes) after the step, because the
 /// contacts acted on the scalar `solver_mass`.
 pub(super) fn correction(
-    kind: &Kind,
+    shared: &SharedConstants,
     body: &RigidBody,
     narrow_phase: &NarrowPhase,
     solver_mass: f64,
@@ -142,18 +165,15 @@ pub(super) fn correction(
         rotation.inverse() * to_f64(moment),
     );
     // Without coupling the rotational inertia that rapier has is the right one.
-    let t = if kind.coupled { t } else { t * 0.0 };
-    let change = kind.inverse_mass * Vector6::new(f.x, f.y, f.z, t.x, t.y, t.z);
+    let t = if shared.coupled { t } else { t * 0.0 };
+    let change = shared.inverse_mass * Vector6::new(f.x, f.y, f.z, t.x, t.y, t.z);
     let linear = change.fixed_rows::<3>(0) - f / solver_mass;
-    let angular = if kind.coupled {
-        let inertia = kind.constants.dry.inertia + kind.constants.added_mass.angular;
+    let angular = if shared.coupled {
+        let inertia = shared.constants.dry.inertia + shared.constants.added_mass.angular;
         let already = inertia.try_inverse().map_or(t * 0.0, |inverse| inverse * t);
         change.fixed_rows::<3>(3) - already
     } else {
         t
     };
-    Some((
-        crate::math::to_real(rotation * linear),
-        crate::math::to_real(rotation * angular),
-    ))
+    Some((to_real(rotation * linear), to_real(rotation * angular)))
 }

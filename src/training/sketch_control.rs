@@ -16,12 +16,13 @@
 //! Measured (test and example `patterns`) with two leaves of 7.3 cm and sketches of five points over two
 //! seconds (swing, glide, helix): mean distances of 1.2 to 5.4 cm, in about half a second each.
 
-use super::immersion::Immersion;
-use crate::Error;
+use super::experiment::{Experiment, Release};
+use crate::coupling::Immersion;
 use crate::dynamics::FreeBody;
+use crate::error::Error;
+use crate::hydro::viscous::ForceFactors;
 use crate::math::{to_f64, to_quaternion, to_real};
-use crate::motion::{ControlSeries, Numbers, Sketch};
-use crate::training::{Experiment, Release};
+use crate::motion::{ControlSeries, DimensionlessNumbers, Sketch};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
@@ -104,7 +105,7 @@ impl Sketch {
     /// body falls broadside; times are shared out by descent.
     ///
     /// # Errors
-    /// Those of [`Sketch::new`] and [`Numbers::of`]; [`Error::InvalidParameter`] if a point is not below
+    /// Those of [`Sketch::new`] and [`DimensionlessNumbers::of`]; [`Error::InvalidParameter`] if a point is not below
     /// the one before.
     pub fn landing(
         experiment: &Experiment,
@@ -113,7 +114,7 @@ impl Sketch {
         landing: Vector3<f64>,
     ) -> Result<Self, Error> {
         let hydro = &experiment.body.hydro;
-        let numbers = Numbers::of(
+        let numbers = DimensionlessNumbers::of(
             hydro,
             &experiment.mass,
             &experiment.fluid,
@@ -193,12 +194,12 @@ impl Sketch {
         for interval in 0..count {
             let time = (interval * steps) as f64 * experiment.dt;
             let (_, best) = search.best(&pilot, time, &mut mean, &mut random);
-            let control = best.map(|c| c as f32);
+            let control = ForceFactors::<f32>::from(ForceFactors::from(best));
             controls.push(control);
             for _ in 0..steps {
                 path.push(rapier.step(control));
             }
-            pilot.control = control.map(f64::from);
+            pilot.control = control.into();
             for _ in 0..steps {
                 pilot.step(experiment.dt, search.gravity);
             }
@@ -241,7 +242,7 @@ impl Search<'_> {
         let mut body = pilot.clone();
         let (mut cost, mut now) = (0.0, time);
         for control in controls {
-            body.control = *control;
+            body.control = (*control).into();
             for _ in 0..self.steps {
                 body.step(self.dt, self.gravity);
                 now += self.dt;
@@ -350,7 +351,7 @@ impl InRapier {
     }
 
     /// Steps, and says where the center of mass is, m.
-    fn step(&mut self, control: [f32; 3]) -> Vector3<f64> {
+    fn step(&mut self, control: ForceFactors) -> Vector3<f64> {
         self.immersion.set_control(self.handle, control);
         self.immersion.step(&mut self.world);
         to_f64(self.world.bodies[self.handle].center_of_mass())

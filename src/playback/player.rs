@@ -1,6 +1,6 @@
 //! How a body follows a synthesized fall (thesis chapter 3).
 
-use crate::Error;
+use crate::error::Error;
 use crate::motion::path::MotionPath;
 use rapier3d::math::{Pose, Real, Rotation, Vector};
 use std::sync::Arc;

@@ -1,0 +1,130 @@
+//! What the coupling keeps of one body: plain data.
+
+use super::control::BodyControl;
+use super::saved_properties::SavedProperties;
+use crate::math::Row;
+use crate::turbulence::SeenFluctuation;
+use rapier3d::dynamics::RigidBodyHandle;
+use rapier3d::math::{Real, Rotation, Vector};
+
+/// No index.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// One immersed body.
+#[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct BodyState {
+    pub handle: RigidBodyHandle,
+    /// Index of the body's description in the registry.
+    pub description: u32,
+    pub enabled: bool,
+    pub control: BodyControl,
+    /// What rapier's body was before; `None` while it is not immersed.
+    pub saved: Option<Box<SavedProperties>>,
+    /// Index of the constants that the body shares with its equals, `NONE` until they are known. They are
+    /// looked up again after a snapshot has been loaded.
+    #[cfg_attr(feature = "serde-serialize", serde(skip, default = "none"))]
+    pub constants: u32,
+    pub flight: FlightState,
+}
+
+#[cfg(feature = "serde-serialize")]
+fn none() -> u32 {
+    NONE
+}
+
+/// What a body in flight carries from step to step besides what rapier keeps. World axes.
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct FlightState {
+    /// The motion as it was integrated; rapier's attitude follows it to third order.
+    pub motion: IntegratorState,
+    /// The velocities that rapier shall have after its step if nothing interferes, m/s and rad/s.
+    pub end_linear: Vector,
+    pub end_angular: Vector,
+    /// Mass that rapier's solver uses, kg.
+    pub solver_mass: Real,
+    /// Steps in a row whose contacts have been corrected.
+    pub corrected_contacts: u8,
+    /// Velocity of the fluid in the last step, m/s, with its fluctuation.
+    pub fluid_velocity: Vector,
+    pub turbulence: TurbulenceMemory,
+    /// Whether rapier could not be given the right inertia tensor: torques are converted then.
+    pub converts_torque: bool,
+    /// Whether all this is from the step before.
+    pub continues: bool,
+}
+
+/// The motion of a body as the integrator carries it from step to step: plate axes, relative to the
+/// fluid. The rows are vectors, filled up with a zero.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct IntegratorState {
+    /// Plate axes to world: a quaternion (x, y, z, w).
+    pub attitude: Row,
+    /// u, m/s.
+    pub linear: Vector,
+    /// Length of the last substep, s.
+    pub last_substep: Real,
+    /// w = ωL, m/s.
+    pub angular: Vector,
+    /// Number of substeps in the last step.
+    pub substeps: Real,
+    /// Acceleration over the last substep, u̇ + ω × u and ẇ, m/s² …
+    pub linear_rate: Row,
+    pub angular_rate: Row,
+    /// … and its change between the last two, m/s³.
+    pub linear_trend: Row,
+    pub angular_trend: Row,
+}
+
+impl IntegratorState {
+    /// At rest in the fluid, its axes those of the world, without history.
+    pub const REST: Self = Self {
+        attitude: [0.0, 0.0, 0.0, 1.0],
+        linear: Vector::ZERO,
+        last_substep: 0.0,
+        angular: Vector::ZERO,
+        substeps: 0.0,
+        linear_rate: [0.0; 4],
+        angular_rate: [0.0; 4],
+        linear_trend: [0.0; 4],
+        angular_trend: [0.0; 4],
+    };
+
+    /// At rest in the fluid, without history.
+    pub fn at(attitude: Rotation) -> Self {
+        Self {
+            attitude: attitude.to_array(),
+            ..Self::REST
+        }
+    }
+}
+
+/// What a body remembers of the turbulence that it moves through.
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct TurbulenceMemory {
+    pub seen: SeenFluctuation,
+    /// Time of the immersion when the turbulence first acted on the body, s.
+    pub since: Option<f64>,
+    /// The fluctuation of the fluid's velocity in the last step, m/s.
+    pub fluctuation: Vector,
+    /// The body's velocity through the fluid that it sees, averaged over several memories of the
+    /// turbulence, m/s. The momentary one would be correlated with the fluctuation, whose memory it sets,
+    /// and would make strong fluctuations last less: a sixth of the variance would be lost.
+    pub slip: Vector,
+}

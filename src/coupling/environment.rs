@@ -1,0 +1,59 @@
+//! The fluid that the bodies of an immersion are in, and how it moves.
+
+use crate::flow::{Flow, FlowSample};
+use crate::fluid::Fluid;
+use crate::turbulence::TurbulentLayer;
+use rapier3d::math::Vector;
+use std::sync::Arc;
+
+/// The fluid, its flow, and the time.
+#[derive(Clone)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct Environment {
+    pub fluid: Fluid,
+    /// Seconds that the set has been stepped.
+    pub time: f64,
+    /// Number of steps so far: the noise of a step depends on it.
+    pub steps: u64,
+    /// Gravity in the last step, m/s²: the read-out uses it.
+    pub gravity: Vector,
+    /// The velocity field; `None` is a fluid at rest. Not part of a snapshot: set it again.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub flow: Option<Arc<dyn Flow>>,
+    /// The turbulence on top of it. Not part of a snapshot either; what bodies remember of it is.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub turbulence: Option<TurbulentLayer>,
+}
+
+impl Environment {
+    /// A fluid at rest.
+    pub fn new(fluid: Fluid) -> Self {
+        Self {
+            fluid,
+            time: 0.0,
+            steps: 0,
+            gravity: Vector::ZERO,
+            flow: None,
+            turbulence: None,
+        }
+    }
+
+    /// Whether the fluid moves at all.
+    pub fn moves(&self) -> bool {
+        self.flow.is_some() || self.turbulence.is_some()
+    }
+
+    /// The mean flow at a point now.
+    pub fn mean_flow(&self, point: Vector) -> FlowSample {
+        match &self.flow {
+            Some(flow) => FlowSample {
+                velocity: flow.velocity(point, self.time),
+                vorticity: flow.vorticity(point, self.time),
+            },
+            None => FlowSample::default(),
+        }
+    }
+}

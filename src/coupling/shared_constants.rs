@@ -1,0 +1,309 @@
+//! What equal bodies in the same fluid share at run time.
+
+use super::from_rapier::inertia;
+use super::interning::{Content, HashIndex};
+use crate::body::{DryMass, ImmersedBody};
+use crate::dynamics::constants::{BodyConstants, InertiaConstants};
+use crate::error::Error;
+use crate::fluid::Fluid;
+use crate::hydro::viscous::{LawKind, PreparedLaw};
+use crate::math::spatial::{Twist, skew, transform};
+use crate::math::{Lanes, Scalar, scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
+use fearless_simd::Simd;
+use rapier3d::dynamics::MassProperties;
+use rapier3d::math::{Rotation, Vector};
+use rapier3d::na::{Matrix3, Matrix6, UnitQuaternion, Vector3};
+use std::hash::{DefaultHasher, Hasher};
+
+/// What a step needs of a body's constants: `f32`, or [`Lanes`] of it.
+#[derive(Clone, Debug)]
+pub(super) struct StepConstants<T> {
+    pub inertia: InertiaConstants<T>,
+    pub law: PreparedLaw<T>,
+    pub scales: Scales<T>,
+    pub flow_response: FlowResponse<T>,
+}
+
+impl<S: Simd> StepConstants<Lanes<S>> {
+    /// The same constants in every lane.
+    #[inline(always)]
+    pub fn splat(simd: S, constants: &StepConstants<f32>) -> Self {
+        Self {
+            inertia: InertiaConstants::splat(simd, &constants.inertia),
+            law: PreparedLaw::splat(simd, &constants.law),
+            scales: Scales::splat(simd, &constants.scales),
+            flow_response: FlowResponse::splat(simd, &constants.flow_response),
+        }
+    }
+
+    /// The constants of one body in each lane, all of one [`Route`]. Where nothing flows (`flows` is
+    /// false) the response to the flow is the first body's in all lanes: gathering costs, and nobody asks
+    /// for it.
+    #[inline(always)]
+    pub fn gather<'a>(simd: S, flows: bool, of: impl Fn(usize) -> &'a StepConstants<f32>) -> Self {
+        let flow_response = if flows {
+            FlowResponse::gather(simd, |lane| &of(lane).flow_response)
+        } else {
+            FlowResponse::splat(simd, &of(0).flow_response)
+        };
+        Self {
+            flow_response,
+            inertia: InertiaConstants::gather(simd, |lane| &of(lane).inertia),
+            law: PreparedLaw::gather(simd, |lane| &of(lane).law),
+            scales: Scales::gather(simd, |lane| &of(lane).scales),
+        }
+    }
+}
+
+scalar_struct! {
+    /// How forces and lengths of the world scale to those of the integrator.
+    pub(super) struct Scales<T> {
+        /// L, m.
+        length: T,
+        /// 1/mass scale, 1/kg.
+        per_mass: T,
+        /// 1/(mass scale · L).
+        per_mass_length: T,
+        /// Body's own mass over the mass scale.
+        dry_mass: T,
+        /// Displaced mass over the mass scale.
+        displaced_mass: T,
+        /// Center of mass to center of buoyancy, plate axes, in L.
+        buoyancy_arm: Vector3<T>,
+        /// Rotational inertia that rapier is given, I + ρA₂₂, plate axes, kg·m².
+        rapier_inertia: Matrix3<T>,
+    }
+}
+
+scalar_struct! {
+    /// How a body follows the fluid around it, plate axes: `𝕄⁻¹ (ρV + ρA)`, the pressure gradient and the
+    /// added mass of an accelerating flow.
+    pub(super) struct FlowResponse<T> {
+        /// Change of u per change of the fluid's velocity …
+        linear: Matrix3<T>,
+        /// … and of w = ωL.
+        angular: Matrix3<T>,
+    }
+}
+
+impl<T: Scalar> FlowResponse<T> {
+    /// Change of the velocity of a body when the fluid around it changes its own by `change`. A neutrally
+    /// buoyant body follows exactly.
+    #[inline(always)]
+    pub fn to(&self, change: &Vector3<T>) -> Twist<T> {
+        Twist {
+            linear: transform(&self.linear, change),
+            angular: transform(&self.angular, change),
+        }
+    }
+}
+
+impl<T: Scalar> Scales<T> {
+    /// Torque that causes an angular acceleration in rapier, plate axes.
+    #[inline(always)]
+    pub fn torque_for(&self, acceleration: &Vector3<T>) -> Vector3<T> {
+        transform(&self.rapier_inertia, acceleration)
+    }
+}
+
+/// Which code a body takes through the step. Bodies of one route are advanced side by side, so that
+/// what happens to one never depends on who its neighbours are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Route {
+    /// See [`BodyConstants::symmetric`].
+    pub symmetric: bool,
+    law: LawKind,
+}
+
+impl Route {
+    /// Number of routes.
+    pub const COUNT: usize = 2 * LawKind::ALL.len();
+
+    /// All routes, in the order of their indices.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let of_law = |law: &LawKind| [false, true].map(|symmetric| (symmetric, *law));
+        let all = LawKind::ALL.iter().flat_map(of_law);
+        all.map(|(symmetric, law)| Self { symmetric, law })
+    }
+
+    /// Index among all routes, less than [`COUNT`](Self::COUNT).
+    pub fn index(self) -> usize {
+        2 * self.law as usize + usize::from(self.symmetric)
+    }
+}
+
+/// One description with one set of mass properties in one fluid.
+#[derive(Clone, Debug)]
+pub(super) struct SharedConstants {
+    /// Index of the description.
+    pub description: u32,
+    pub constants: BodyConstants,
+    pub step: StepConstants<f32>,
+    /// Plate axes to the body's frame.
+    pub axes: Rotation,
+    pub route: Route,
+    /// Whether buoyancy has a torque.
+    pub buoyancy_turns: bool,
+    /// Whether some motion drags more than half of the body's own mass along.
+    pub heavy_fluid: bool,
+    /// Inverse of the 6×6 mass of body and fluid about the center of mass, body axes.
+    pub inverse_mass: Matrix6<f64>,
+    /// Whether a push at the center of mass turns the body (A₁₂ ≠ 0).
+    pub coupled: bool,
+}
+
+impl SharedConstants {
+    /// # Errors
+    /// Those of [`BodyConstants::new`].
+    pub fn new(
+        description: u32,
+        body: &ImmersedBody,
+        dry: &DryMass,
+        fluid: &Fluid,
+    ) -> Result<Self, Error> {
+        let constants = BodyConstants::new(body, dry, fluid)?;
+        let (mass, length) = (constants.mass, constants.length);
+        let arm = constants.axes.inverse() * constants.buoyancy_arm / length;
+        let mut whole = constants.added_mass.to_matrix6();
+        let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
+        linear += Matrix3::from_diagonal_element(dry.mass);
+        let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
+        angular += dry.inertia;
+        let inverse_mass = whole.try_inverse().ok_or(Error::UnphysicalAddedMass)?;
+        let coupling = constants.added_mass.coupling.norm();
+        let turn = constants.axes.inverse().matrix()
+            * whole.fixed_view::<3, 3>(3, 3)
+            * constants.axes.matrix();
+        let route = Route {
+            symmetric: constants.symmetric,
+            law: constants.law.kind(),
+        };
+        // The response to an accelerating flow, first in the body's axes, then in the plate's.
+        let mut dragged = constants
+            .added_mass
+            .to_matrix6()
+            .fixed_columns::<3>(0)
+            .into_owned();
+        let mut pressure = dragged.fixed_rows_mut::<3>(0);
+        pressure += Matrix3::from_diagonal_element(constants.displaced_mass);
+        let mut moment = dragged.fixed_rows_mut::<3>(3);
+        moment += skew(&constants.buoyancy_arm) * constants.displaced_mass;
+        let response = inverse_mass * dragged;
+        let to_plate =
+            |m: Matrix3<f64>| constants.axes.inverse().matrix() * m * constants.axes.matrix();
+        let response_linear = to_plate(response.fixed_rows::<3>(0).into_owned());
+        let response_angular = to_plate(response.fixed_rows::<3>(3).into_owned()) * length;
+        let scales = Scales {
+            length,
+            per_mass: 1.0 / mass,
+            per_mass_length: 1.0 / (mass * length),
+            dry_mass: dry.mass / mass,
+            displaced_mass: constants.displaced_mass / mass,
+            buoyancy_arm: arm,
+            rapier_inertia: Matrix3::from_fn(|i, j| turn[(i.min(j), i.max(j))]),
+        };
+        Ok(Self {
+            description,
+            step: StepConstants {
+                inertia: constants.inertia.rounded(),
+                law: constants.law.rounded(),
+                scales: scales.rounded(),
+                flow_response: FlowResponse {
+                    linear: response_linear,
+                    angular: response_angular,
+                }
+                .rounded(),
+            },
+            axes: to_rotation(UnitQuaternion::from_rotation_matrix(&constants.axes)),
+            route,
+            buoyancy_turns: arm.amax() > 1e-7,
+            heavy_fluid: constants.added_mass.linear.symmetric_eigenvalues().max() > 0.5 * dry.mass,
+            inverse_mass,
+            coupled: coupling > 1e-6 * mass * length,
+            constants,
+        })
+    }
+
+    /// What rapier is given: the scalar mass it can use, and I + ρA₂₂.
+    pub fn wet(&self, mass: f64) -> DryMass {
+        let dry = &self.constants.dry;
+        DryMass {
+            mass,
+            center: dry.center,
+            inertia: dry.inertia + self.constants.added_mass.angular,
+        }
+    }
+
+    /// The torque that causes in rapier, whose inertia tensor is `rapier`'s, what `torque` would
+    /// cause with the right one. World axes; `attitude` maps the body's frame to the world.
+    pub fn torque_for(
+        &self,
+        rapier: &MassProperties,
+        attitude: Rotation,
+        torque: Vector,
+    ) -> Vector {
+        let rotation = to_quaternion(attitude);
+        let torque = rotation.inverse() * to_f64(torque);
+        let right = self.wet(1.0).inertia;
+        let acceleration = right
+            .try_inverse()
+            .map_or(torque * 0.0, |inverse| inverse * torque);
+        let theirs = inertia(rapier);
+        to_real(rotation * (theirs * acceleration))
+    }
+
+    /// Whether a body of this description and mass would share them.
+    fn is(&self, description: u32, dry: &DryMass) -> bool {
+        self.description == description && self.constants.dry == *dry
+    }
+}
+
+/// The constants of all bodies that are in the fluid, equal ones once.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ConstantsTable {
+    entries: Vec<SharedConstants>,
+    index: HashIndex,
+    /// Whether one of them drags much fluid along.
+    pub heavy_fluid: bool,
+}
+
+impl ConstantsTable {
+    /// Index of the constants of a body with this description and mass, which are made if there are
+    /// none yet.
+    ///
+    /// # Errors
+    /// Those of [`BodyConstants::new`].
+    pub fn intern(
+        &mut self,
+        description: u32,
+        body: &ImmersedBody,
+        dry: &DryMass,
+        fluid: &Fluid,
+    ) -> Result<u32, Error> {
+        let mut hasher = DefaultHasher::new();
+        hasher.write_u32(description);
+        dry.hash_content(&mut hasher);
+        let hash = hasher.finish();
+        let is = |place: u32| self.entries[place as usize].is(description, dry);
+        if let Some(place) = self.index.find(hash, is) {
+            return Ok(place);
+        }
+        let constants = SharedConstants::new(description, body, dry, fluid)?;
+        self.heavy_fluid |= constants.heavy_fluid;
+        let place = self.entries.len() as u32;
+        self.index.insert(hash, place);
+        self.entries.push(constants);
+        Ok(place)
+    }
+
+    /// The constants at an index that [`ConstantsTable::intern`] has returned.
+    #[inline(always)]
+    pub fn get(&self, index: u32) -> &SharedConstants {
+        &self.entries[index as usize]
+    }
+
+    /// Forgets all, as when the fluid has changed.
+    pub fn clear(&mut self) {
+        *self = Self::default();
+    }
+}

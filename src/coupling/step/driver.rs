@@ -1,0 +1,133 @@
+//! Runs the stages of a step over batches of bodies.
+
+use super::contact_mass;
+use super::integrate::{Batched, integrate};
+use super::prepare::{self, Preparation};
+use super::sample_fluid::sample_fluid;
+use super::substep_matching::SubstepScheme;
+use super::workspace::{StepContext, Workspace};
+use super::write_back;
+use crate::coupling::control::SeriesTable;
+use crate::coupling::environment::Environment;
+use crate::coupling::rapier_sets::RapierSets;
+use crate::coupling::registry::Registry;
+use crate::coupling::shared_constants::{ConstantsTable, Route};
+use crate::dynamics::Integrator;
+use rapier3d::dynamics::RigidBodyHandle;
+
+/// What a step reads and changes besides rapier.
+pub(in crate::coupling) struct StepParts<'a> {
+    pub integrator: Integrator,
+    pub environment: &'a Environment,
+    pub constants: &'a ConstantsTable,
+    pub series: &'a SeriesTable,
+    pub registry: &'a mut Registry,
+    pub workspace: &'a mut Workspace,
+}
+
+/// Sets each body's force, torque and velocity so that rapier's step moves it as the fluid would.
+pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierSets) {
+    let parameters = sets.integration_parameters;
+    // A negative or NaN time step moves nothing, in rapier as here.
+    if parameters.dt.is_nan() || parameters.dt <= 0.0 {
+        return;
+    }
+    let context = StepContext {
+        dt: parameters.dt,
+        scheme: SubstepScheme::new(parameters.dt, parameters.num_solver_iterations),
+        gravity: sets.gravity,
+        integrator: parts.integrator,
+    };
+    parts.workspace.saved_forces.clear();
+    let heavy_fluid = parts.constants.heavy_fluid;
+    contact_mass::find_close(
+        parts.registry,
+        heavy_fluid,
+        sets,
+        &mut parts.workspace.close,
+    );
+
+    // Rapier lists a body as active only once it has stepped it: newcomers go first.
+    let mut newcomers = std::mem::take(&mut parts.registry.newcomers);
+    let key = |handle: &RigidBodyHandle| handle.into_raw_parts();
+    newcomers.sort_unstable_by_key(key);
+    newcomers.dedup();
+    for handle in &newcomers {
+        move_body(*handle, parts, sets, &context);
+    }
+    let islands = sets.islands;
+    for handle in islands.active_bodies() {
+        if newcomers.binary_search_by_key(&key(&handle), key).is_err() {
+            move_body(handle, parts, sets, &context);
+        }
+    }
+    for route in Route::all() {
+        run_stages(route, parts, sets, &context);
+    }
+    newcomers.clear();
+    parts.registry.newcomers = newcomers;
+}
+
+/// Prepares a body, and moves its batch if that is full.
+fn move_body(
+    handle: RigidBodyHandle,
+    parts: &mut StepParts,
+    sets: &mut RapierSets,
+    context: &StepContext,
+) {
+    let mut preparation = Preparation {
+        environment: parts.environment,
+        constants: parts.constants,
+        series: parts.series,
+        close: &parts.workspace.close,
+        context,
+        registry: parts.registry,
+        batches: &mut parts.workspace.batches,
+    };
+    if let Some(route) = prepare::prepare(handle, sets, &mut preparation)
+        && parts.workspace.batches[route.index()].is_full()
+    {
+        run_stages(route, parts, sets, context);
+    }
+}
+
+/// Moves the bodies of a batch, which is empty thereafter.
+fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, context: &StepContext) {
+    let workspace = &mut *parts.workspace;
+    let batch = &mut workspace.batches[route.index()];
+    if batch.inputs.is_empty() {
+        return;
+    }
+    sample_fluid(
+        parts.environment,
+        parts.constants,
+        context,
+        batch,
+        &mut workspace.samples,
+    );
+    let mut outputs = std::mem::take(&mut batch.outputs);
+    let batched = Batched {
+        states: parts.registry.states(),
+        constants: parts.constants,
+        disturbances: &batch.disturbances,
+        context,
+    };
+    integrate(&batch.inputs, &batch.flows, &mut outputs, route, batched);
+    batch.outputs = outputs;
+    write_back::write_back(
+        batch,
+        parts.constants,
+        parts.registry,
+        sets,
+        &mut workspace.saved_forces,
+    );
+    batch.clear();
+}
+
+/// Gives users' forces back and corrects the velocities of bodies in contact.
+pub(in crate::coupling) fn after_step(parts: &mut StepParts, sets: &mut RapierSets) {
+    for saved in &parts.workspace.saved_forces {
+        write_back::finish(saved, parts.constants, parts.registry, sets);
+    }
+    parts.workspace.saved_forces.clear();
+}

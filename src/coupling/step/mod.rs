@@ -1,0 +1,23 @@
+//! One step: four stages one after another, over batches of bodies that take the same [`Route`].
+//!
+//! ```text
+//! prepare ──► sample_fluid (turbulence) ──► integrate (lane_group, substep_matching) ──► write_back
+//! ```
+//!
+//! [`driver`] fills the batches and runs the stages; no stage calls another. What passes between them is in
+//! [`workspace`].
+//!
+//! [`Route`]: super::shared_constants::Route
+
+mod contact_mass;
+pub(super) mod driver;
+mod integrate;
+mod lane_group;
+mod prepare;
+mod sample_fluid;
+mod substep_matching;
+#[cfg(test)]
+mod tests;
+mod turbulence;
+pub(super) mod workspace;
+mod write_back;

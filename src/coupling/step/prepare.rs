@@ -1,0 +1,140 @@
+//! The first stage: which bodies a step moves, and what it has to know of them.
+
+use super::contact_mass;
+use super::workspace::{Batch, CloseBodies, Disturbance, SeenFlow, StepContext, StepInput};
+use crate::coupling::body_state::{FlightState, IntegratorState, NONE};
+use crate::coupling::control::SeriesTable;
+use crate::coupling::environment::Environment;
+use crate::coupling::rapier_sets::RapierSets;
+use crate::coupling::registry::Registry;
+use crate::coupling::shared_constants::{ConstantsTable, Route};
+use crate::math::row;
+use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
+use rapier3d::math::{Real, Rotation, Vector};
+
+/// Relative difference of velocities that rapier's own arithmetic in f32 can cause.
+const ROUNDING: Real = 2e-6;
+/// Change of the solver's mass near contacts that is worth telling rapier.
+const MASS_CHANGE: Real = 0.02;
+
+/// What preparation reads, and where it puts bodies.
+pub(super) struct Preparation<'a> {
+    pub environment: &'a Environment,
+    pub constants: &'a ConstantsTable,
+    pub series: &'a SeriesTable,
+    pub close: &'a CloseBodies,
+    pub context: &'a StepContext,
+    pub registry: &'a mut Registry,
+    pub batches: &'a mut [Batch; Route::COUNT],
+}
+
+/// Puts an awake body into the batch of its route, if it is immersed.
+pub(super) fn prepare(
+    handle: RigidBodyHandle,
+    sets: &RapierSets,
+    to: &mut Preparation,
+) -> Option<Route> {
+    let index = to.registry.index(handle)?;
+    let state = to.registry.at_mut(index)?;
+    let body = sets.bodies.get(handle)?;
+    if state.saved.is_none() || state.constants == NONE || !body.is_dynamic() || body.is_sleeping()
+    {
+        return None;
+    }
+    let shared = to.constants.get(state.constants);
+    let normal = if to.close.contains(index) {
+        contact_mass::normal(shared, body, sets)
+    } else {
+        None
+    };
+    let held = sets.hold(body, handle);
+    let touching = normal.is_some() || held;
+    let dt = to.context.dt.into();
+    state.control.advance(touching, to.series, dt);
+    let wanted_mass = match normal {
+        Some(normal) => contact_mass::mass_along(shared, body, normal) as Real,
+        None => shared.constants.dry.mass as Real,
+    };
+    let flight = &mut state.flight;
+    let new_mass = (wanted_mass - flight.solver_mass).abs() > MASS_CHANGE * wanted_mass;
+    // A body with solver iterations of its own is written back like one in contact.
+    let free = !touching && body.additional_solver_iterations() == 0;
+
+    let rapier_attitude = *body.rotation() * shared.axes;
+    let continues = free && continues(flight, body, rapier_attitude);
+    let (linear, angular) = (body.linvel(), body.angvel());
+    let (force, torque) = (body.user_force(), body.user_torque());
+    let (change_linear, change_angular) = if continues {
+        (
+            beyond_rounding(linear, flight.end_linear),
+            beyond_rounding(angular, flight.end_angular),
+        )
+    } else {
+        flight.motion = IntegratorState::at(rapier_attitude);
+        (linear, angular)
+    };
+    let undisturbed =
+        continues && [change_linear, change_angular, force, torque] == [Vector::ZERO; 4];
+
+    let batch = &mut to.batches[shared.route.index()];
+    let disturbance = if undisturbed {
+        NONE
+    } else {
+        batch.disturbances.push(Disturbance {
+            linear: row(change_linear),
+            angular: row(change_angular),
+            force: row(force),
+            torque: row(torque),
+        });
+        batch.disturbances.len() as u32 - 1
+    };
+    if to.environment.moves() {
+        batch.points.push(body.center_of_mass());
+        batch.flows.push(SeenFlow::before(flight));
+    }
+    if to.environment.turbulence.is_some() {
+        batch.turbulence.push(flight.turbulence);
+    }
+    batch.inputs.push(StepInput {
+        handle,
+        state: index as u32,
+        constants: state.constants,
+        free,
+        may_sleep: touching,
+        continues,
+        solver_mass: if new_mass {
+            wanted_mass
+        } else {
+            flight.solver_mass
+        },
+        new_mass,
+        factors: state.control.factors,
+        gravity_scale: body.gravity_scale(),
+        disturbance,
+        has_torque: torque != Vector::ZERO,
+        rapier_attitude: rapier_attitude.to_array(),
+        rapier_linear: row(linear),
+        rapier_angular: row(angular),
+    });
+    Some(shared.route)
+}
+
+/// Whether the motion that was integrated goes on: nobody has turned the body since, and nothing damps
+/// it in rapier.
+fn continues(flight: &FlightState, body: &RigidBody, rapier_attitude: Rotation) -> bool {
+    let kept = Rotation::from_array(flight.motion.attitude);
+    flight.continues
+        && body.linear_damping() == 0.0
+        && body.angular_damping() == 0.0
+        && rapier_attitude.dot(kept).abs() > 1.0 - 1e-4
+}
+
+/// What rapier or a user did to a velocity comes on top of what was integrated; rounding does not.
+fn beyond_rounding(now: Vector, expected: Vector) -> Vector {
+    let change = now - expected;
+    if change.length() > ROUNDING * expected.length() {
+        change
+    } else {
+        Vector::ZERO
+    }
+}

@@ -1,0 +1,80 @@
+//! The second stage: the flow that each body of a batch sees, its mean and turbulence on top.
+
+use super::turbulence::{Fluctuate, StepTurbulence};
+use super::workspace::{Batch, Disturbance, StepContext, StepInput};
+use crate::coupling::body_state::NONE;
+use crate::coupling::environment::Environment;
+use crate::coupling::shared_constants::ConstantsTable;
+use crate::flow::FlowSample;
+use crate::math::{dispatch, row, vector};
+use crate::turbulence::LangevinMode;
+use rapier3d::math::Real;
+
+/// Reads the flow at every body of a batch and adds the turbulence.
+pub(super) fn sample_fluid(
+    environment: &Environment,
+    constants: &ConstantsTable,
+    context: &StepContext,
+    batch: &mut Batch,
+    samples: &mut Vec<FlowSample>,
+) {
+    let Batch {
+        inputs,
+        disturbances,
+        points,
+        flows,
+        turbulence: memories,
+        ..
+    } = batch;
+    if flows.is_empty() {
+        return;
+    }
+    samples.clear();
+    samples.resize(points.len(), FlowSample::default());
+    if let Some(flow) = &environment.flow {
+        flow.sample(points, environment.time, samples);
+    }
+    if let Some(layer) = &environment.turbulence {
+        let turbulence = StepTurbulence::new(layer, environment, context.dt);
+        match layer.mode {
+            LangevinMode::FluidSeen => dispatch(Fluctuate {
+                turbulence: &turbulence,
+                inputs,
+                points,
+                samples,
+                memories,
+            }),
+            LangevinMode::BodyIncrements => {
+                for (i, input) in inputs.iter_mut().enumerate() {
+                    let length = constants.get(input.constants).constants.length as Real;
+                    let relative = vector(input.rapier_linear) - samples[i].velocity;
+                    let (linear, angular) = turbulence.increments(
+                        input.handle,
+                        &mut memories[i],
+                        points[i],
+                        relative,
+                        length,
+                    );
+                    let disturbance = disturbance_of(input, disturbances);
+                    disturbance.linear = row(vector(disturbance.linear) + linear);
+                    disturbance.angular = row(vector(disturbance.angular) + angular);
+                }
+            }
+        }
+    }
+    for (flow, sample) in flows.iter_mut().zip(samples) {
+        flow.advance(sample);
+    }
+}
+
+/// A body's disturbance, made if there is none yet.
+fn disturbance_of<'a>(
+    input: &mut StepInput,
+    disturbances: &'a mut Vec<Disturbance>,
+) -> &'a mut Disturbance {
+    if input.disturbance == NONE {
+        input.disturbance = disturbances.len() as u32;
+        disturbances.push(Disturbance::default());
+    }
+    &mut disturbances[input.disturbance as usize]
+}

@@ -1,0 +1,197 @@
+//! What passes between the stages of a step, and the memory for it, which is reused from step to step.
+
+use super::substep_matching::SubstepScheme;
+use crate::coupling::body_state::{FlightState, IntegratorState, TurbulenceMemory};
+use crate::coupling::shared_constants::Route;
+use crate::dynamics::Integrator;
+use crate::flow::FlowSample;
+use crate::hydro::viscous::ForceFactors;
+use crate::math::{Row, row, vector};
+use rapier3d::dynamics::RigidBodyHandle;
+use rapier3d::math::{Real, Vector};
+
+/// How a step is taken.
+#[derive(Clone, Copy)]
+pub(in crate::coupling) struct StepContext {
+    pub dt: Real,
+    pub scheme: SubstepScheme,
+    pub gravity: Vector,
+    pub integrator: Integrator,
+}
+
+/// One awake body during one step. World axes unless said otherwise. The rows are vectors, filled up with
+/// a zero.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::coupling) struct StepInput {
+    pub handle: RigidBodyHandle,
+    /// Indices of the body's state and constants.
+    pub state: u32,
+    pub constants: u32,
+    /// Touches nothing and is held by nothing: velocity and pose are written back exactly.
+    pub free: bool,
+    /// Is in contact or held, so that rapier may let it sleep.
+    pub may_sleep: bool,
+    /// Goes on with the velocity relative to the fluid that was integrated.
+    pub continues: bool,
+    /// Mass that rapier's solver uses, kg; `new_mass` if rapier has to be told.
+    pub solver_mass: Real,
+    pub new_mass: bool,
+    pub factors: ForceFactors,
+    /// Share of the world's gravity that the body feels.
+    pub gravity_scale: Real,
+    /// Index of the body's [`Disturbance`], `NONE` if it has none.
+    pub disturbance: u32,
+    /// Whether a user's torque turns the body.
+    pub has_torque: bool,
+    /// What rapier has: attitude (plate axes to world, a quaternion) and velocities.
+    pub rapier_attitude: Row,
+    pub rapier_linear: Row,
+    pub rapier_angular: Row,
+}
+
+/// What acts on a body besides fluid and gravity. Most bodies have none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::coupling) struct Disturbance {
+    /// Velocities that come on top of what was integrated: what happened to the body since, or all of
+    /// its velocity. m/s and rad/s.
+    pub linear: Row,
+    pub angular: Row,
+    /// User's force, N, and torque, N·m.
+    pub force: Row,
+    pub torque: Row,
+}
+
+impl Disturbance {
+    pub const NONE: Self = Self {
+        linear: [0.0; 4],
+        angular: [0.0; 4],
+        force: [0.0; 4],
+        torque: [0.0; 4],
+    };
+}
+
+/// The flow that a body sees. World axes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::coupling) struct SeenFlow {
+    /// Velocity of the fluid, m/s; that of the last step until the flow has been sampled.
+    pub velocity: Row,
+    /// Its vorticity, 1/s.
+    pub vorticity: Row,
+    /// Change of its velocity since the last step, m/s; zero for a body that was not in flight then.
+    pub change: Row,
+    /// Whether the velocity of the last step is known.
+    known_before: bool,
+}
+
+impl SeenFlow {
+    /// What a body remembers of the last step.
+    #[inline(always)]
+    pub fn before(flight: &FlightState) -> Self {
+        Self {
+            velocity: row(flight.fluid_velocity),
+            known_before: flight.continues,
+            ..Self::default()
+        }
+    }
+
+    /// Goes on to this step's flow. Where that is no number the fluid stays as it was.
+    #[inline(always)]
+    pub fn advance(&mut self, sample: &FlowSample) {
+        if (sample.velocity + sample.vorticity).is_finite() {
+            if self.known_before {
+                self.change = row(sample.velocity - vector(self.velocity));
+            }
+            self.velocity = row(sample.velocity);
+            self.vorticity = row(sample.vorticity);
+        }
+    }
+}
+
+/// What a step makes of a [`StepInput`]. World axes unless said otherwise.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::coupling) struct StepOutput {
+    /// Motion at the end of the step.
+    pub motion: IntegratorState,
+    /// Velocities at the end of the step, m/s and rad/s.
+    pub end_linear: Row,
+    pub end_angular: Row,
+    /// Velocities to start from, and the force, N, and torque, N·m, to apply.
+    pub start_linear: Row,
+    pub start_angular: Row,
+    pub force: Row,
+    pub torque: Row,
+}
+
+/// What a user's body had before the step took its place, to be given back after it.
+#[derive(Clone, Copy)]
+pub(in crate::coupling) struct SavedForces {
+    pub handle: RigidBodyHandle,
+    /// Index of the body's state.
+    pub state: u32,
+    pub force: Vector,
+    pub torque: Vector,
+    /// Whether the body is in contact or held.
+    pub touching: bool,
+}
+
+/// Bodies of one route that are moved together.
+#[derive(Clone, Default)]
+pub(in crate::coupling) struct Batch {
+    pub inputs: Vec<StepInput>,
+    pub disturbances: Vec<Disturbance>,
+    /// Where the bodies are (centers of mass) and the flow that they see; empty where nothing flows.
+    pub points: Vec<Vector>,
+    pub flows: Vec<SeenFlow>,
+    /// What the bodies remember of the turbulence; empty where there is none.
+    pub turbulence: Vec<TurbulenceMemory>,
+    /// What the integration makes of the inputs.
+    pub outputs: Vec<StepOutput>,
+}
+
+impl Batch {
+    /// Number of bodies that are moved together: few enough to be still in the cache when they are
+    /// written back, many enough for threads to share.
+    const SIZE: usize = if cfg!(feature = "parallel") {
+        16384
+    } else {
+        256
+    };
+
+    pub fn is_full(&self) -> bool {
+        self.inputs.len() >= Self::SIZE
+    }
+
+    pub fn clear(&mut self) {
+        self.inputs.clear();
+        self.disturbances.clear();
+        self.points.clear();
+        self.flows.clear();
+        self.turbulence.clear();
+    }
+}
+
+/// Which bodies are close to something.
+#[derive(Clone, Default)]
+pub(in crate::coupling) struct CloseBodies {
+    /// By index of the body's state, unless the world is `crowded`.
+    pub marked: Vec<bool>,
+    pub crowded: bool,
+}
+
+impl CloseBodies {
+    /// Whether the body's pairs have to be asked for.
+    pub fn contains(&self, state: usize) -> bool {
+        self.crowded || self.marked.get(state).is_some_and(|marked| *marked)
+    }
+}
+
+/// What a step works in.
+#[derive(Clone, Default)]
+pub(in crate::coupling) struct Workspace {
+    /// Bodies that are about to be moved, by route.
+    pub batches: [Batch; Route::COUNT],
+    pub close: CloseBodies,
+    /// Of the bodies between `before_step` and `after_step`.
+    pub saved_forces: Vec<SavedForces>,
+    pub samples: Vec<FlowSample>,
+}
