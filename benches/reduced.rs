@@ -4,12 +4,12 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use rapier3d::na::DVector;
-use rapier3d_immersed::reduced::axis::Axis;
-use rapier3d_immersed::reduced::canonical::Canonical;
-use rapier3d_immersed::reduced::evolution::{Coupling, EvolutionParams, evolve};
+use rapier3d_immersed::reduced::Axis;
+use rapier3d_immersed::reduced::Canonical;
+use rapier3d_immersed::reduced::PgdParams;
+use rapier3d_immersed::reduced::Separated;
 use rapier3d_immersed::reduced::example_systems::coupled_triple;
-use rapier3d_immersed::reduced::pgd::PgdParams;
-use rapier3d_immersed::reduced::separated::Separated;
+use rapier3d_immersed::reduced::{Coupling, EvolutionParams, evolve};
 use std::hint::black_box;
 
 /// The size the thesis states in §6.2.1: 15 modes, 6 dimensions, 300 nodes each.

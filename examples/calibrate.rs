@@ -2,7 +2,7 @@
 //! in published experiments, and searches for what reproduces them best.
 //!
 //! The search is CMA-ES (Hansen 2016) between the bounds of
-//! [`COEFFICIENTS`](rapier3d_immersed::training::fidelity::coefficients::COEFFICIENTS), on all cores and
+//! [`searched`](rapier3d_immersed::training::fidelity::searched), on all cores and
 //! reproducible from its seed. Every evaluation is appended to a log; started again with the same flags
 //! the search reads it and goes on where it stopped.
 //!
@@ -18,8 +18,8 @@ use ganesh::traits::{Algorithm, CostFunction};
 use ganesh::{NalgebraProvider, Vector};
 use indicatif::ProgressBar;
 use rapier3d_immersed::training::Experiment;
-use rapier3d_immersed::training::fidelity::coefficients::{COEFFICIENTS, law_at};
 use rapier3d_immersed::training::fidelity::{Effort, Fidelity, Part, Report};
+use rapier3d_immersed::training::fidelity::{law_at, places, searched};
 use rapier3d_immersed::{PhysicalLaw, ViscousLaw};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -192,7 +192,7 @@ fn search(arguments: &Arguments, all: &Fidelity, start: &PhysicalLaw) -> Physica
             progress: cli::progress(evaluations, "laws"),
         }),
     };
-    let places = COEFFICIENTS.iter().map(|c| c.place(start)).collect();
+    let places = places(start);
     let config = CMAESConfig::default()
         .with_population_size(arguments.population as usize)
         .and_then(|config| config.with_initial_sigma(arguments.step))
@@ -213,7 +213,7 @@ fn search(arguments: &Arguments, all: &Fidelity, start: &PhysicalLaw) -> Physica
     let json = serde_json::to_string_pretty(&law).expect("a law is finite numbers");
     cli::write(&arguments.output.join("law.json"), json);
     println!("cost {:.4}", seen.best.0);
-    for coefficient in COEFFICIENTS {
+    for (coefficient, _) in searched() {
         println!("{:>22} {:.4}", coefficient.name, coefficient.of(&law));
     }
     law

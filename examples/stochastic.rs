@@ -315,7 +315,7 @@ fn main() {
                 ..ellipsoid()
             },
         ),
-        ("ellipsoid, 5 ms", 1.71, ellipsoid()),
+        ("ellipsoid, 5 ms", 1.63, ellipsoid()),
         (
             "ellipsoid, 10 ms",
             1.65,

@@ -12,7 +12,7 @@
 //! Tables are flat arrays of `f32` written by a [`Writer`]: the one that ships inside the crate has
 //! to load with no optional feature.
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::math::{Real, Vector};
 
 /// Kind of file, as it appears in errors, and how it starts.

@@ -1,6 +1,6 @@
 //! The fluid that bodies are immersed in.
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::math::Real;
 
 /// A homogeneous Newtonian fluid.
@@ -21,8 +21,8 @@ impl Fluid {
         kinematic_viscosity: 1.562e-5,
     };
 
-    /// Water at 25 °C: 997 kg/m³, 0.89·10⁻⁶ m²/s (the viscosity that the thesis, §3.6, and the
-    /// falling-plate experiments use).
+    /// Water at 25 °C: 997 kg/m³, 0.89·10⁻⁶ m²/s (the viscosity of the falling-plate
+    /// experiments, and the one with which the coin of thesis § 3.6 has the Re that is printed).
     pub const WATER: Self = Self {
         density: 997.0,
         kinematic_viscosity: 0.89e-6,

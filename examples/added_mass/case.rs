@@ -17,7 +17,7 @@ pub enum Kind {
     Cone,
     Capsule,
     Ellipsoid,
-    /// An ellipsoid of 7.3 × 4.2 × 0.03 cm, as in the thesis's figure 5.2.
+    /// An ellipsoid of the size of the thesis's leaf, 7.3 × 4.2 × 0.03 cm.
     Leaf,
     /// A dart of folded paper, 8.3 × 8.3 × 0.01 cm.
     Airplane,

@@ -1,4 +1,5 @@
-//! Error against thickness (thesis, figure 5.2): bodies of 7.3 × 4.2 cm from 3 cm down to 0.1 mm.
+//! Error against thickness, as thesis Fig. 5.2, for bodies of 7.3 × 4.2 cm (the sizes there are not stated)
+//! from 3 cm down to 0.1 mm.
 
 use crate::previous;
 use plotters::prelude::*;

@@ -19,7 +19,7 @@ use clap::{Parser, ValueEnum};
 use model::Model;
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
-use rapier3d_immersed::reduced::identify::{Fit, FitParams, fit};
+use rapier3d_immersed::reduced::{Fit, FitParams, fit};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;

@@ -3,8 +3,8 @@
 use crate::card;
 use crate::free_fall::{Law, Specimen};
 use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion};
-use rapier3d_immersed::reduced::dormand_prince::Tolerances;
-use rapier3d_immersed::reduced::falling_plate::FallingPlate;
+use rapier3d_immersed::reduced::FallingPlate;
+use rapier3d_immersed::reduced::Tolerances;
 use rapier3d_immersed::{Error, Fluid};
 
 /// Writes rows at the times for these parameters, as many as fit.

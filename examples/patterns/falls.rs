@@ -87,7 +87,8 @@ pub fn four_patterns(context: &Context) -> Result<Value, Error> {
     Ok(json!(rows))
 }
 
-/// Fig. 5.5: the card that autorotates along a helix.
+/// Fig. 5.5: the card that autorotates along a helix. The thesis prints a = 2.5, b = 1.5 and c = 0.01 cm;
+/// a and b are read as semi-axes here, although its Table 5.2 lists whole axes for other bodies.
 pub fn helix(context: &Context) -> Result<Value, Error> {
     let (hydro, mass) = thin_ellipsoid([0.025, 0.015, 0.000_05], 1200.0)?;
     let mut experiment = Experiment::new(hydro, mass, Fluid::AIR);
@@ -121,7 +122,7 @@ pub fn effects(context: &Context, seed: u64) -> Result<Value, Error> {
     };
     let inviscid = body.clone().with_law(ViscousLaw::Inviscid)?;
     let vacuum = release(inviscid.clone(), Fluid::new(1e-6, 1.0)?);
-    // The thesis's earlier boundary elements are 90 % off for such a body (Fig. 5.2).
+    // The boundary elements that the thesis compares with are close to 90 % off at 0.03 cm (Fig. 5.2).
     let mut coarse = inviscid.clone();
     let a = &mut coarse.hydro.added_mass;
     (a.linear, a.coupling, a.angular) = (a.linear * 0.1, a.coupling * 0.1, a.angular * 0.1);

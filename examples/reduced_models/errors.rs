@@ -2,7 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rapier3d_immersed::reduced::axis::Axis;
+use rapier3d_immersed::reduced::Axis;
 
 /// Horizon and error.
 pub type Errors = Vec<(f64, f64)>;

@@ -4,10 +4,10 @@
 use super::free_fall::{GRAVITY, Specimen};
 use rapier3d_immersed::Error;
 use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion, Vector3};
-use rapier3d_immersed::reduced::axis::{Axis, Family};
-use rapier3d_immersed::reduced::cross::{CrossParams, CrossReport, cross};
-use rapier3d_immersed::reduced::dormand_prince::{Tolerances, integrate};
-use rapier3d_immersed::reduced::tensor_train::TensorTrain;
+use rapier3d_immersed::reduced::TensorTrain;
+use rapier3d_immersed::reduced::{Axis, Family};
+use rapier3d_immersed::reduced::{CrossParams, CrossReport, cross};
+use rapier3d_immersed::reduced::{Tolerances, integrate};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Long enough that the rounding of a step does not matter, short enough that its truncation

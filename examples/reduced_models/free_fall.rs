@@ -3,7 +3,7 @@
 use rapier3d_immersed::geometry::{Ellipsoid, Surface};
 use rapier3d_immersed::rapier3d::na::{Matrix3, UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
-use rapier3d_immersed::reduced::axis::Axis;
+use rapier3d_immersed::reduced::Axis;
 use rapier3d_immersed::{
     DryMass, Error, Fluid, FreeBody, HydroProperties, ImmersedBody, Integrator, PhysicalLaw,
     ThesisLaw, ViscousLaw,
@@ -74,7 +74,7 @@ impl Specimen {
         })
     }
 
-    /// The card of thesis Fig. 5.6, 7 × 4 cm × 0.4 mm, in air.
+    /// The card of thesis Fig. 5.6 as we read it: 7 × 4 cm × 0.4 mm, in air.
     pub fn card() -> Result<Self, Error> {
         let air = Fluid::new(1.2, 1.5e-5)?;
         Self::new([0.035, 0.02, 0.0002], air, Law::Thesis)

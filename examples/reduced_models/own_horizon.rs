@@ -6,10 +6,10 @@ use super::force_coefficients::{Motions, SeparatedForces};
 use super::free_fall::{Domain, GRAVITY, Specimen};
 use indicatif::ProgressBar;
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
-use rapier3d_immersed::reduced::axis::Axis;
-use rapier3d_immersed::reduced::cross::CrossParams;
-use rapier3d_immersed::reduced::dormand_prince::Tolerances;
-use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
+use rapier3d_immersed::reduced::Axis;
+use rapier3d_immersed::reduced::CrossParams;
+use rapier3d_immersed::reduced::Tolerances;
+use rapier3d_immersed::reduced::{FlowMap, TrajectorySurrogate};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 

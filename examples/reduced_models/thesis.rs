@@ -5,16 +5,16 @@ use crate::chart::{COLORS, Mark, Panel, SeriesLabelPosition, draw};
 use indicatif::ProgressBar;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rapier3d_immersed::reduced::axis::Axis;
-use rapier3d_immersed::reduced::dormand_prince::Tolerances;
-use rapier3d_immersed::reduced::evolution::{Coupling, EvolutionParams, evolve};
+use rapier3d_immersed::reduced::Axis;
+use rapier3d_immersed::reduced::PgdParams;
+use rapier3d_immersed::reduced::QuadraticSystem;
+use rapier3d_immersed::reduced::Separated;
+use rapier3d_immersed::reduced::Tolerances;
 use rapier3d_immersed::reduced::example_systems::{
     coupled_triple, falling_body, falling_body_solution, kirchhoff_ellipsoid, linear,
     linear_solution,
 };
-use rapier3d_immersed::reduced::pgd::PgdParams;
-use rapier3d_immersed::reduced::quadratic::QuadraticSystem;
-use rapier3d_immersed::reduced::separated::Separated;
+use rapier3d_immersed::reduced::{Coupling, EvolutionParams, evolve};
 use std::path::Path;
 use std::time::Instant;
 
@@ -286,9 +286,7 @@ fn cost(system: &QuadraticSystem, time: &Axis) -> Result<(Panel, f64), Box<dyn s
                                 3.0 - u[0] * u[1],
                             ]);
                         };
-                        rapier3d_immersed::reduced::dormand_prince::integrate(
-                            rate, 0.0, 0.5, &mut state, USUAL,
-                        );
+                        rapier3d_immersed::reduced::integrate(rate, 0.0, 0.5, &mut state, USUAL);
                         sum += state[0];
                     }
                 }

@@ -83,28 +83,8 @@ fn physical(text: &str) -> Result<PhysicalLaw, String> {
             .split_once('=')
             .ok_or_else(|| format!("'{part}' is not NAME=VALUE, as this law takes"))?;
         let value = cli::finite(value).map_err(|problem| format!("'{part}': {problem}"))?;
-        let field = match name.trim().replace('-', "_").as_str() {
-            "pressure_travel" => &mut law.pressure_travel,
-            "attached_lift" => &mut law.attached_lift,
-            "attached_aspect" => &mut law.attached_aspect,
-            "stalled_lift" => &mut law.stalled_lift,
-            "stalled_aspect" => &mut law.stalled_aspect,
-            "stall_sine" => &mut law.stall_sine,
-            "stall_width" => &mut law.stall_width,
-            "rotational_lift" => &mut law.rotational_lift,
-            "rotational_aspect" => &mut law.rotational_aspect,
-            "rotational_stall" => &mut law.rotational_stall,
-            "munk" => &mut law.munk,
-            "translation_damping" => &mut law.translation_damping,
-            "rotation_damping" => &mut law.rotation_damping,
-            "friction" => &mut law.friction,
-            "edge_drag" => &mut law.edge_drag,
-            "lift_onset" => &mut law.lift_onset,
-            "damping_onset" => &mut law.damping_onset,
-            "magnus" => &mut law.magnus,
-            other => return Err(format!("the default law has no coefficient '{other}'")),
-        };
-        *field = value;
+        law.set(&name.trim().replace('-', "_"), value)
+            .map_err(|problem| problem.to_string())?;
     }
     Ok(law)
 }

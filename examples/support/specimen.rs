@@ -34,7 +34,7 @@ pub enum ShapeName {
 pub enum TiltAxis {
     /// The long one, along x: the chord dips, as in the experiments with falling plates
     Long,
-    /// The shorter in-plane one, along z: the long axis dips, as for the card of the thesis, § 5.4
+    /// The shorter in-plane one, along z: the long axis dips, as we read the card of the thesis, § 5.4
     Short,
 }
 

@@ -340,7 +340,7 @@ pub fn bodies(
             ..SynthesisParams::of_case(&PhaseDiagram::THESIS_CASES[2])
         };
         let synthesizer = leaf.synthesizer(params, database)?;
-        let title = format!("eight leaves in wind of {speed} m/s from the right (3.17)");
+        let title = format!("eight leaves in wind of {speed} m/s from the right (Fig. 3.17)");
         let mut panel = Panel::new(title, "x, m", "y, m");
         panel.window = Some([
             [(-1.5, 1.5), (-6.5, 0.5), (-11.5, 0.5)][(speed / 2.0) as usize],

@@ -4,7 +4,7 @@
 //! Immersion (façade) ──► registry ──► body_state        which bodies, and what is kept of each
 //!     │                  shared_constants               what equal bodies share
 //!     │                  environment, control           the fluid; factors on forces
-//!     ├──► admission ──► saved_properties, from_rapier  bodies enter and leave the fluid
+//!     ├──► admission ──► saved_properties               bodies enter and leave the fluid
 //!     ├──► readout                                      forces on one body
 //!     └──► step::driver                                 prepare → sample → integrate → write back
 //! ```
@@ -13,7 +13,6 @@ mod admission;
 mod body_state;
 mod control;
 mod environment;
-mod from_rapier;
 mod immersion;
 mod interning;
 mod rapier_sets;

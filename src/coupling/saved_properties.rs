@@ -1,8 +1,8 @@
 //! What a rapier body was before it was immersed.
 
-use super::from_rapier::{inertia_error, uniform_density};
 use super::shared_constants::SharedConstants;
 use crate::body::DryMass;
+use crate::body::from_rapier::{inertia_error, uniform_density};
 use crate::error::Error;
 use rapier3d::dynamics::{
     MassProperties, RigidBodyAdditionalMassProps, RigidBodyHandle, RigidBodySet,

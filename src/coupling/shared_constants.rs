@@ -1,7 +1,7 @@
 //! What equal bodies in the same fluid share at run time.
 
-use super::from_rapier::inertia;
 use super::interning::{Content, HashIndex};
+use crate::body::from_rapier::inertia;
 use crate::body::{DryMass, ImmersedBody};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
 use crate::error::Error;

@@ -246,9 +246,11 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::{DryMass, ImmersedBody};
     use crate::dynamics::constants::BodyConstants;
+    use crate::fluid::Fluid;
+    use crate::hydro::HydroProperties;
     use crate::hydro::viscous::terms::ViscousTerms;
-    use crate::{DryMass, Fluid, HydroProperties, ImmersedBody};
     use rapier3d::math::Vector;
     use rapier3d::na::Matrix3;
     use rapier3d::parry::shape::Cuboid;

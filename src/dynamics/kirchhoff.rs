@@ -5,7 +5,7 @@
 //! h = 𝕄₁₂ᵀ u + 𝕄₂₂ ω           ḣ = h × ω + p × u + T
 //! ```
 //!
-//! (Kirchhoff 1870; Lamb § 124. Thesis (4.4) prints v × (Mω) for ω × (Mv), wrong even for a
+//! (Kirchhoff 1870; Lamb, chapter VI. Thesis (4.4) prints v × (Mω) for ω × (Mv), wrong even for a
 //! sphere.) With the viscous force in the form of [`viscous`](crate::hydro::viscous) the right-hand
 //! side is `N(ν) ν + Q`, ν = (u, ω), where the symmetric part of N is never positive: that is what
 //! the integrator builds on.

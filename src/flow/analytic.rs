@@ -1,7 +1,7 @@
 //! Flows with a closed form: shear, vortex, gust.
 
 use super::Flow;
-use crate::Error;
+use crate::error::Error;
 use rapier3d::math::{Real, Vector};
 
 /// A flow whose velocity changes linearly across one direction: U = velocity + rate · (x − origin)·across.

@@ -1,7 +1,7 @@
 //! A flow sampled on a grid, in memory or from a file.
 
 use super::{Flow, FlowSample, alone, cells::Cells, lattice::Lattice, lattice::MAX_NODES};
-use crate::Error;
+use crate::error::Error;
 use crate::file::{FileKind, Reader, Writer};
 use crate::math::{Lanes, OnLanes, Row, dispatch};
 use fearless_simd::{Simd, SimdBase};

@@ -1,6 +1,6 @@
 //! Trilinear interpolation on a regular lattice, clamped or periodic along each axis.
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::glamx::Vec4;
 use rapier3d::math::{Real, Vector};
 

@@ -1,7 +1,7 @@
 //! The surface layer of the atmosphere: the mean wind grows with the logarithm of height.
 
 use super::{Flow, analytic::unit};
-use crate::Error;
+use crate::error::Error;
 use rapier3d::math::{Real, Vector};
 use rapier3d::na::ComplexField;
 

@@ -3,7 +3,7 @@
 use super::cells::{Cells, Pair};
 use super::lattice::{Lattice, MAX_NODES, cos_sin, fraction};
 use super::{Flow, FlowSample, LogLaw, alone};
-use crate::Error;
+use crate::error::Error;
 use crate::file::{FileKind, Reader, Writer};
 use crate::math::{Lanes, MOST_LANES, OnLanes, Row, Scalar, dispatch};
 use fearless_simd::{Simd, SimdBase};

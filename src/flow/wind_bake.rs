@@ -7,7 +7,7 @@
 use super::SpectralWind;
 use super::cells::Pair;
 use super::wind_params::{Component, Spectrum, WindParams, check, components};
-use crate::Error;
+use crate::error::Error;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;

@@ -1,7 +1,7 @@
 //! What a gust field is asked for: its spectrum, its box, the wind that carries it.
 
 use super::{HeightLaw, lattice::Lattice, log_law::VON_KARMAN};
-use crate::Error;
+use crate::error::Error;
 use rapier3d::math::{Real, Vector};
 
 /// How strong the gusts are at each wavelength: the one-dimensional power spectrum along the wind,

@@ -3,7 +3,7 @@
 
 use super::graded::{both_ends, one_end};
 use super::{Ellipsoid, Surface};
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::Vector3;
 use rapier3d::parry::shape::{Shape, TypedShape};
 use std::f64::consts::{PI, TAU};

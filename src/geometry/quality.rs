@@ -1,6 +1,6 @@
 //! What can be wrong with a mesh, found before anything is computed from it.
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::Vector3;
 
 /// Height over longest edge below which a triangle is a needle: its normal has lost half its digits.

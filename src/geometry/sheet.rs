@@ -1,7 +1,7 @@
 //! Open surfaces: paper, leaves and wings by their mid-surface.
 
 use super::bisect::quarter;
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::Vector3;
 use std::collections::HashMap;
 

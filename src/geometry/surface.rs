@@ -1,6 +1,6 @@
 //! Closed surfaces: where the volume, the planform and the boundary elements of a shape come from.
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::{Matrix3, Vector3};
 use std::collections::HashMap;
 

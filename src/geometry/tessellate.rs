@@ -1,7 +1,7 @@
 //! Closed surfaces from rapier's shapes.
 
 use super::Surface;
-use crate::Error;
+use crate::error::Error;
 use rapier3d::math::{Pose, Vector};
 use rapier3d::na::Vector3;
 use rapier3d::parry::math::Vector3 as ParryVector3;

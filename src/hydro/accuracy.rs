@@ -1,7 +1,7 @@
 //! How accurately the added mass of a shape is computed.
 
 use super::HydroProperties;
-use crate::Error;
+use crate::error::Error;
 use rapier3d::math::Pose;
 use rapier3d::parry::shape::Shape;
 

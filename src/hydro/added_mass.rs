@@ -12,7 +12,7 @@ use rapier3d::na::{Matrix3, Matrix6, Rotation3, Vector3};
 /// p = ρ (A₁₁ u + A₁₂ ω)        h = ρ (A₁₂ᵀ u + A₂₂ ω)
 /// ```
 ///
-/// and whose kinetic energy is `½ (u·p + ω·h)` (Lamb, *Hydrodynamics*, §§ 118–124; thesis § 5.3.1,
+/// and whose kinetic energy is `½ (u·p + ω·h)` (Lamb, *Hydrodynamics*, chapter VI; thesis § 5.3.1,
 /// which leaves out the coupling block A₁₂ that any body without three planes of symmetry has).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(

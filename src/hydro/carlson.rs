@@ -50,7 +50,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Reference values printed in Carlson's paper, § 3.
+    /// Reference values printed in Carlson's paper.
     #[test]
     fn published_values() {
         assert_relative_eq!(

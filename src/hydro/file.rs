@@ -1,7 +1,7 @@
 //! Saving and loading added mass, in postcard's encoding.
 
 use super::AddedMass;
-use crate::Error;
+use crate::error::Error;
 use crate::file::{FileKind, decode, encode};
 
 const FILE: FileKind = FileKind {

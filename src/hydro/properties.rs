@@ -1,7 +1,7 @@
 //! Everything the fluid feels of a shape, computed once.
 
 use super::{AddedMass, Planform};
-use crate::Error;
+use crate::error::Error;
 use crate::geometry::{Ellipsoid, Surface};
 use rapier3d::na::{Matrix3, Rotation3, Vector3};
 use rapier3d::parry::shape::Shape;

@@ -1,7 +1,7 @@
 //! Codebooks: series of control parameters that make a body fall in planned patterns.
 
 use super::pattern::Pattern;
-use crate::Error;
+use crate::error::Error;
 use crate::hydro::viscous::{ForceFactors, ViscousLaw};
 use rand::{Rng, RngExt};
 

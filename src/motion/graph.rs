@@ -1,6 +1,6 @@
 //! Which pattern follows which: a Markov chain (thesis § 5.5.2).
 
-use crate::Error;
+use crate::error::Error;
 use rand::{Rng, RngExt};
 
 /// A motion graph over any number of states: a start distribution and the probabilities of going from

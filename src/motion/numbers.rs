@@ -1,7 +1,7 @@
 //! The numbers that place a body on the phase diagram: U0, Re and I*.
 
-use crate::Error;
 use crate::body::DryMass;
+use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use std::f64::consts::PI;
@@ -146,8 +146,8 @@ mod tests {
     use rapier3d::geometry::SharedShape;
     use rapier3d::na::{Matrix3, Vector3};
 
-    /// The yen coin of thesis § 3.6: Re = 3.55e3, I* = 1.0e-2. It computes with √(Δρ g t) in water
-    /// of density 1.
+    /// The yen coin of thesis § 3.6, printed as Re = 3.55·10³ and I* = 10⁻². Both follow with 2700 kg/m³ for
+    /// aluminium, and 1000 kg/m³ and 0.89·10⁻⁶ m²/s for water, which it does not print.
     #[test]
     fn the_yen_coin() {
         let water = Fluid::new(1000.0, 0.89e-6).unwrap();

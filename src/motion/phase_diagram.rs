@@ -1,10 +1,10 @@
 //! The Re–I* phase diagram: which regime a body falls in (thesis Fig. 3.3).
 
 use super::pattern::Regime;
-use crate::Error;
+use crate::error::Error;
 
 /// Re (by mean descent) against I* where steady descent ends: Field, Klaus, Moore & Nori, *Nature*
-/// 388 (1997), digitised by Howison et al. (2020), in order of I*.
+/// 388 (1997), as the public data of Howison et al. (2020) hold them, in order of I*.
 const STEADY: [(f64, f64); 17] = [
     (2.027e-4, 140.9),
     (3.241e-4, 156.4),
@@ -92,7 +92,7 @@ pub struct Case {
     pub reynolds: f64,
     /// I* as printed.
     pub i_star: f64,
-    /// The regime that was observed.
+    /// The main motion pattern, as the thesis reads it off its own diagram.
     pub regime: Regime,
 }
 
@@ -114,7 +114,7 @@ impl PhaseDiagram {
         Case {
             name: "yen coin in water",
             reynolds: 3.55e3,
-            i_star: 9.9e-3,
+            i_star: 1.0e-2,
             regime: Regime::PeriodicFlutter,
         },
         Case {
@@ -244,9 +244,9 @@ mod tests {
 
     /// Values of the same curves read at round numbers, independently of the typed points.
     #[test]
-    fn curves_pass_through_the_published_table() {
+    fn curves_pass_through_values_read_at_round_numbers() {
         let close = |a: f64, b: f64, tolerance: f64| (a / b - 1.0).abs() < tolerance;
-        // The table is printed to two or three digits.
+        // They were read to two or three digits.
         for (re, i) in [
             (250.0, 0.0139),
             (500.0, 0.0099),
@@ -277,7 +277,7 @@ mod tests {
                 "{case:?} {regime} {near:?}"
             );
         }
-        assert_eq!(diagram.regime(3.55e3, 9.9e-3), TransitionalChaotic);
+        assert_eq!(diagram.regime(3.55e3, 1.0e-2), TransitionalChaotic);
     }
 
     /// The measured discs themselves: 339 of 347 lie on the right side of the curves in the whole

@@ -1,6 +1,6 @@
 //! Sketches: paths over time, drawn by a user.
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::Vector3;
 
 /// A path over time: points with times, smooth in between.

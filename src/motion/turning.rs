@@ -6,7 +6,8 @@ use rapier3d::na::Vector3;
 ///
 /// A turn is a maximum of the curvature κL (L the body's major semi-axis) that rises above the minimum
 /// before it, and is followed by a fall, by `tolerance`. It is reported when it is over, a few points
-/// late. The thesis's tolerance of 0.1 (Fig. 5.12) is per centimeter, with L = 3.5 cm.
+/// late. The thesis's tolerance of 0.1 (Fig. 5.12) has no unit; it is read as 0.1 per centimeter, because
+/// its Fig. 5.6 is in centimeters, with L = 3.5 cm.
 #[derive(Clone, Debug)]
 pub struct TurnFinder {
     length: f64,
@@ -18,7 +19,7 @@ pub struct TurnFinder {
 }
 
 impl TurnFinder {
-    /// The thesis's tolerance in units of the major semi-axis: 0.1 /cm × 3.5 cm.
+    /// The thesis's tolerance in units of the major semi-axis, as we read it: 0.1 /cm × 3.5 cm.
     pub const TOLERANCE: f64 = 0.35;
 
     /// For a body of major semi-axis `length`, m.

@@ -223,9 +223,10 @@ impl Emitter {
 mod tests {
     use super::*;
     use crate::coupling::RapierSets;
+    use crate::fluid::Fluid;
+    use crate::hydro::HydroProperties;
     use crate::motion::Regime;
     use crate::motion::path::{Key, MotionPath};
-    use crate::{Fluid, HydroProperties};
 
     fn confetti(params: EmitterParams) -> Result<Emitter, Error> {
         let collider = ColliderBuilder::cuboid(0.01, 0.0005, 0.006).density(300.0);

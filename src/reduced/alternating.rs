@@ -1,9 +1,9 @@
-//! Alternating directions: the Galerkin problems of one dimension at a time, for one term or for
-//! all (thesis §6.3.1, §6.3.2).
+//! Alternating directions: the Galerkin problems of one dimension at a time, for one term (thesis
+//! §6.3.1) or for all, and the projection (§6.3.2).
 
 use super::canonical::Canonical;
 use super::operator::{Factor, Operator};
-use super::pgd::PgdParams;
+use super::params::PgdParams;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use rapier3d::na::{DMatrix, DVector};

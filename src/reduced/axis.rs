@@ -1,7 +1,7 @@
 //! One coordinate of a separated representation: a one-dimensional mesh with its basis functions.
 
 use super::legendre::Rule;
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::{DMatrix, DVector};
 
 mod assembly;
@@ -18,8 +18,8 @@ pub const MAX_DEGREE: usize = 63;
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub enum Family {
-    /// Gauss–Lobatto points: for space, parameters and initial values. Degree 1 gives the linear
-    /// finite elements of thesis §6.2.3, one element of high degree a spectral basis.
+    /// Gauss–Lobatto points: for space, parameters and initial values. Degree 1 gives linear
+    /// finite elements (thesis § 6.2.3 names no degree), one element of high degree a spectral basis.
     Lobatto,
     /// The start of the element and the right Gauss–Radau points: for time. Collocation there is
     /// the Radau IIA method, equal to the discontinuous Galerkin method with Radau quadrature:

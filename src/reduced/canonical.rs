@@ -1,6 +1,6 @@
 //! Sums of Kronecker products of vectors: the algebra of separated representations.
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::{DMatrix, DVector};
 
 /// Largest number of terms whose norm is computed by orthogonal factorisations.

@@ -4,7 +4,7 @@
 use super::axis::Axis;
 use super::orthogonal::column_basis;
 use super::tensor_train::{Core, TensorTrain};
-use crate::Error;
+use crate::error::Error;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d::na::DMatrix;

@@ -3,7 +3,7 @@
 use super::separated::Separated;
 use super::surrogate::{FlowMap, TrajectorySurrogate};
 use super::tensor_train::TensorTrain;
-use crate::Error;
+use crate::error::Error;
 use crate::file::{FileKind, decode, encode};
 
 macro_rules! saved {

@@ -1,6 +1,6 @@
 //! Parameter identification: which parameters make a model reproduce measured data.
 
-use crate::Error;
+use crate::error::Error;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d::na::{DMatrix, DVector};

@@ -145,7 +145,7 @@ mod tests {
         }
     }
 
-    /// Radau IIA of two and three stages, Hairer & Wanner, Solving ODEs II, table IV.5.6.
+    /// Radau IIA of two and three stages, Hairer & Wanner, Solving ODEs II, § IV.5.
     #[test]
     fn radau_nodes_of_the_literature() {
         let two = Rule::radau_right(2);

@@ -2,22 +2,22 @@
 //! as sums of products of functions of one coordinate, baked once and evaluated in a microsecond.
 //!
 //! ```text
-//! Axis ──► Operator, Canonical ──► pgd::solve ─────┐
+//! Axis ──► Operator, Canonical ──► solve ──────────┐
 //!     └──► QuadraticSystem ──────► evolve ─────────┼──► Separated ──► evaluate, grid
 //!     └──► any function ─────────► cross ──► TensorTrain, FlowMap, TrajectorySurrogate
-//! model and track ───────────────► identify::fit ──► parameters with uncertainty
+//! model and track ───────────────► fit ────────────► parameters with uncertainty
 //! ```
 //!
-//! * [`pgd`] is the thesis's algorithm for linear problems of any number of dimensions: greedy
-//!   enrichment by alternating directions and projection, with updates of all terms, which bring
-//!   them close to the best separation of their number.
-//! * [`evolution`] takes coupled systems, quadratic in the state, whose parameters and initial
+//! * [`solve`] is the thesis's algorithm for linear problems of any number of dimensions: greedy
+//!   enrichment by alternating directions and projection, and, beyond the thesis, updates of all terms,
+//!   which bring them close to the best separation of their number.
+//! * [`evolve`] takes coupled systems, quadratic in the state, whose parameters and initial
 //!   values are coordinates: by Newton's linearisation, all components together or one by one.
-//! * [`cross`](mod@cross) and [`surrogate`] are for dynamics that are no polynomials.
-//! * [`identify`] finds the parameters of a model from a measured track.
+//! * [`cross()`] and [`TrajectorySurrogate`] are for dynamics that are no polynomials.
+//! * [`fit`] finds the parameters of a model from a measured track.
 //!
 //! **Where it fails.** A solution that becomes infinite within the domain has no separated
-//! representation: [`evolution::evolve`] looks for such points and reports them. Trajectories
+//! representation: [`evolve`] looks for such points and reports them. Trajectories
 //! over a range of parameters in which the motion pattern changes are not separable over times in
 //! which the patterns part. Measured (`examples/reduced_models`, figure `horizon`) as the error of the
 //! horizontal position relative to its spread over the domain, on a planar plate over five parameters
@@ -64,8 +64,8 @@
 //! plate's rates or a step of `FreeBody` cost: they pay only for dynamics that cost more.
 //!
 //! ```
-//! use rapier3d_immersed::reduced::axis::Axis;
-//! use rapier3d_immersed::reduced::evolution::{EvolutionParams, evolve};
+//! use rapier3d_immersed::reduced::Axis;
+//! use rapier3d_immersed::reduced::{EvolutionParams, evolve};
 //! use rapier3d_immersed::reduced::example_systems::{falling_body, falling_body_solution};
 //!
 //! // Free fall against quadratic drag, for every drag coefficient from 0.5 to 2 at once.
@@ -81,21 +81,37 @@
 //! ```
 
 mod alternating;
-pub mod axis;
-pub mod canonical;
-pub mod cross;
-pub mod dormand_prince;
-pub mod evolution;
+mod axis;
+mod canonical;
+mod cross;
+mod dormand_prince;
+mod evolution;
 pub mod example_systems;
-pub mod falling_plate;
+mod falling_plate;
 #[cfg(feature = "serde-serialize")]
 mod file;
-pub mod identify;
+mod identify;
 mod legendre;
-pub mod operator;
+mod operator;
 mod orthogonal;
-pub mod pgd;
-pub mod quadratic;
-pub mod separated;
-pub mod surrogate;
-pub mod tensor_train;
+mod params;
+mod pgd;
+mod quadratic;
+mod separated;
+mod surrogate;
+mod tensor_train;
+
+pub use axis::{Axis, Family, MAX_DEGREE, Quadrature};
+pub use canonical::Canonical;
+pub use cross::{CrossParams, CrossReport, cross};
+pub use dormand_prince::{Tolerances, integrate};
+pub use evolution::{Coupling, EvolutionParams, EvolutionReport, evolve};
+pub use falling_plate::FallingPlate;
+pub use identify::{Fit, FitParams, fit};
+pub use operator::{Factor, Operator};
+pub use params::PgdParams;
+pub use pgd::{PgdReport, compress, solve};
+pub use quadratic::{Dependence, InitialTerm, QuadraticSystem, RateTerm, Singularity};
+pub use separated::{Evaluator, Separated};
+pub use surrogate::{FlowMap, TrajectorySurrogate};
+pub use tensor_train::TensorTrain;

@@ -1,7 +1,7 @@
 //! Sums of Kronecker products of matrices: linear operators on separated representations.
 
 use super::canonical::{Canonical, scale_rows};
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::{DMatrix, DVector};
 use std::sync::Arc;
 

@@ -1,67 +1,15 @@
 //! Proper generalised decomposition of a linear problem: greedy enrichment by alternating
-//! directions, projection of the coefficients, update of all factors (thesis §6.2.2–6.3.2).
+//! directions and projection of the coefficients (thesis §6.2.2–6.3.2), and update of all factors (ours).
 
 use super::alternating::{enrich, project, update};
 use super::canonical::{Canonical, scale_rows};
 use super::operator::{Factor, Operator};
 use super::orthogonal::column_basis;
-use crate::Error;
+use super::params::PgdParams;
+use crate::error::Error;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rapier3d::na::DVector;
-
-/// How a separated solution is sought.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PgdParams {
-    /// Most terms of the solution. Default 30.
-    pub max_modes: usize,
-    /// The enrichment stops when the residual, relative to the source, is at most this. Default 1e-8.
-    pub tolerance: f64,
-    /// Most rounds over all dimensions in the search of one new term. Default 12.
-    pub fixed_point_rounds: usize,
-    /// That search also stops when the term changes by less than this fraction (thesis (6.13)).
-    /// Default 1e-4: a rough term is good enough where updates follow.
-    pub fixed_point_tolerance: f64,
-    /// Rounds over all dimensions, after each enrichment, in which the factors of *all* terms are
-    /// solved for together. 0 is the thesis's algorithm; with a few the terms come close to
-    /// the best separation of their number. Default 2.
-    pub update_rounds: usize,
-    /// Seed of the random starts of the fixed point. Default 1.
-    pub seed: u64,
-}
-
-impl Default for PgdParams {
-    fn default() -> Self {
-        Self {
-            max_modes: 30,
-            tolerance: 1e-8,
-            fixed_point_rounds: 12,
-            fixed_point_tolerance: 1e-4,
-            update_rounds: 2,
-            seed: 1,
-        }
-    }
-}
-
-impl PgdParams {
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        Error::check_positive("max_modes", self.max_modes as f64)?;
-        Error::check_positive("fixed_point_rounds", self.fixed_point_rounds as f64)?;
-        for (parameter, value) in [
-            ("tolerance", self.tolerance),
-            ("fixed_point_tolerance", self.fixed_point_tolerance),
-        ] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(Error::InvalidParameter {
-                    parameter,
-                    requirement: "finite and not negative",
-                    value,
-                });
-            }
-        }
-        Ok(())
-    }
-}
 
 /// How the enrichment went. Not to converge is no error.
 #[derive(Clone, Debug, PartialEq)]

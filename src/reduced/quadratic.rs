@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::canonical::Canonical;
 use super::dormand_prince::{Tolerances, integrate};
-use crate::Error;
+use crate::error::Error;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d::na::DVector;

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, MAX_DEGREE};
 use super::canonical::Canonical;
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::{DMatrix, DVector};
 
 /// A vector-valued function Σᵢ αᵢ T_i(x₀) Πⱼ U_iʲ(xⱼ) (thesis (6.1)): the factor of the first axis

@@ -4,7 +4,7 @@
 use super::axis::Axis;
 use super::cross::{CrossParams, CrossReport, cross};
 use super::tensor_train::TensorTrain;
-use crate::Error;
+use crate::error::Error;
 
 /// Whole trajectories as a tensor train over parameters, initial values among them.
 ///

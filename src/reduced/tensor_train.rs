@@ -3,7 +3,7 @@
 
 use super::axis::{Axis, MAX_DEGREE};
 use super::orthogonal::column_basis;
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::{DMatrix, DVector};
 
 /// One core: for every node a matrix from the rank on the left to the rank on the right.

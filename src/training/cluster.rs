@@ -2,7 +2,7 @@
 
 use super::sweep::Sample;
 #[cfg(feature = "bake")]
-use crate::Error;
+use crate::error::Error;
 use crate::motion::Pattern;
 
 /// Four clusters in (d, e).
@@ -10,7 +10,8 @@ use crate::motion::Pattern;
 /// Features are log₁₀(d/L + 0.1) and e, so that one body flung far away (the thesis's law pumps energy
 /// into some) does not get a cluster of its own. Labels follow the means of d: the nearest cluster is
 /// steady descent, the farthest autorotation, and of the two between the nearer is the zigzag (thesis
-/// Fig. 5.7: SD 1.25, ZZ 5.69, AZ 13.72, AR 22.43 cm).
+/// Fig. 5.7, by its list of figures: SD 1.25, ZZ 5.69, AZ 13.72, AR 22.43, taken as cm; the caption itself
+/// repeats 1.25 for AZ).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",

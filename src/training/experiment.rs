@@ -1,8 +1,8 @@
 //! One numerical experiment: drop a body, record how it falls.
 
-use crate::Error;
 use crate::body::{DryMass, ImmersedBody};
 use crate::dynamics::{FreeBody, Integrator};
+use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::geometry::{Ellipsoid, Surface};
 use crate::hydro::HydroProperties;
@@ -96,7 +96,7 @@ pub struct Experiment {
     pub gravity: f64,
     /// How it is let go.
     pub release: Release,
-    /// Length of the fall, s (default 3, as in the thesis).
+    /// Length of the fall, s (default 3; the thesis does not print its own).
     pub seconds: f64,
     /// Time step and interval of the record, s (default 1/120; substeps are the integrator's).
     pub dt: f64,
@@ -119,9 +119,9 @@ impl Experiment {
         }
     }
 
-    /// The card of thesis Fig. 5.6 in air, under the thesis's law with coefficients C̃. Its sizes are
-    /// our reading of what the thesis leaves open: an ellipsoid of semi-axes 3.5 × 2 × 0.02 cm,
-    /// 800 kg/m³.
+    /// The card of thesis Fig. 5.6, under the thesis's law with coefficients C̃. The thesis prints a = 3.5 cm
+    /// and b = 2 cm. Our reading of what it leaves open: in air, an ellipsoid of semi-axes
+    /// 3.5 × 2 × 0.02 cm, 800 kg/m³.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a coefficient of the law cannot be.

@@ -2,7 +2,7 @@
 
 use super::subspace::Subspaces;
 use super::sweep::Sweep;
-use crate::Error;
+use crate::error::Error;
 use crate::file::{FileKind, decode, encode};
 
 const SWEEP: FileKind = FileKind {

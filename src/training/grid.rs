@@ -1,6 +1,6 @@
 //! A regular grid over any number of parameters.
 
-use crate::Error;
+use crate::error::Error;
 
 /// One parameter: `count` nodes from `low` to `high`, both included.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -52,18 +52,18 @@
 //!
 //! Everything here is offline work; with the feature `bake` it uses all cores.
 
-pub mod cluster;
-pub mod energy;
-pub mod experiment;
+mod cluster;
+mod energy;
+mod experiment;
 pub mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod file;
-pub mod grid;
-pub mod plan;
-pub mod planner;
+mod grid;
+mod plan;
+mod planner;
 mod sketch_control;
-pub mod subspace;
-pub mod sweep;
+mod subspace;
+mod sweep;
 
 pub use cluster::Clusters;
 pub use energy::{ControlBox, EnergyObjective};

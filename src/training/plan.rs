@@ -1,7 +1,7 @@
 //! What goes into a plan, and what comes out.
 
 use super::energy::{ControlBox, EnergyObjective};
-use crate::Error;
+use crate::error::Error;
 use crate::motion::{Classifier, ControlSeries, Pattern, Trajectory, TurnFinder};
 use crate::turbulence::Turbulence;
 

@@ -18,8 +18,8 @@ use super::energy::{ControlBox, EnergyObjective};
 use super::experiment::Experiment;
 use super::plan::{DwellReport, Plan, PlannerParams};
 use super::subspace::Subspaces;
-use crate::Error;
 use crate::dynamics::FreeBody;
+use crate::error::Error;
 use crate::hydro::viscous::ForceFactors;
 use crate::math::to_real;
 use crate::motion::{

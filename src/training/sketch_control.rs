@@ -372,7 +372,7 @@ impl InRapier {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ThesisLaw, ViscousLaw};
+    use crate::hydro::viscous::{ThesisLaw, ViscousLaw};
 
     #[test]
     fn bad_goals_are_refused() {

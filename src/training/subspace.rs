@@ -1,7 +1,7 @@
 //! Subspaces: the part of the parameter space where a body shows a pattern (thesis § 5.4.3).
 
 use super::grid::Grid;
-use crate::Error;
+use crate::error::Error;
 use crate::motion::Pattern;
 use rand::{Rng, RngExt};
 

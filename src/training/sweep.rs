@@ -2,7 +2,7 @@
 
 use super::experiment::Experiment;
 use super::grid::Grid;
-use crate::Error;
+use crate::error::Error;
 use crate::motion::{Classifier, Pattern, Regime, Spread, Trajectory};
 use std::ops::ControlFlow;
 
@@ -205,7 +205,7 @@ impl Sweep {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ThesisLaw;
+    use crate::hydro::viscous::ThesisLaw;
     use crate::training::Axis;
 
     /// A disc of one pattern in a square of another.

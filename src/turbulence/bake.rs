@@ -5,7 +5,7 @@
 
 use super::grid::{Advection, Boundary, MacGrid, MacGridParams, Viscosity};
 use super::{KEpsilon, KEpsilonGrid, TurbulenceField, TurbulenceState, TurbulenceTable};
-use crate::Error;
+use crate::error::Error;
 use crate::flow::{Flow, Uniform};
 use rapier3d::math::Real;
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! The k–ε model where it needs no grid: constants, eddy viscosity, and its source terms in closed form.
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::math::Real;
 
 /// How strong the turbulence is at one place and time.

@@ -2,7 +2,7 @@
 
 use super::KEpsilon;
 use super::grid::{Advection, Array3, MacGrid, advect};
-use crate::Error;
+use crate::error::Error;
 use rayon::prelude::*;
 
 /// k (m²/s²) and ε (m²/s³) in the cell centers of a [`MacGrid`].

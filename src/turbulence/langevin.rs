@@ -11,7 +11,7 @@ use rapier3d::math::{Real, Vector};
 /// C₀ of the Langevin equation, 6.5 (1 + 140 Re_λ^(−4/3))^(−3/4), of the *square* of the Taylor-scale
 /// Reynolds number (see [`TurbulenceState::taylor_reynolds_squared`]).
 ///
-/// Pope (2011), Phys. Fluids 23, 075104; the thesis (4.10)–(4.11) inserts the body's Reynolds
+/// Pope (2011), Phys. Fluids 23, 011301; the thesis (4.10)–(4.11) inserts the body's Reynolds
 /// number, which overstates C₀. Tends to 6.5 for strong turbulence, to 0 for weak.
 #[inline]
 pub fn kolmogorov_constant(taylor_reynolds_squared: Real) -> Real {
@@ -211,7 +211,7 @@ pub fn spin_increment(
 mod tests {
     use super::*;
 
-    /// Pope (2011): values at five Reynolds numbers, to three digits.
+    /// The formula of Pope (2011), evaluated independently at five Reynolds numbers, to three digits.
     #[test]
     fn kolmogorov_constant_of_the_taylor_scale() {
         for (reynolds, c0) in [

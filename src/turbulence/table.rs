@@ -1,7 +1,7 @@
 //! The baked turbulence: k and ε over time along a followed particle, and over space and time.
 
 use super::TurbulenceState;
-use crate::Error;
+use crate::error::Error;
 use crate::file::{FileKind, Reader, Writer};
 use rapier3d::math::{Real, Vector};
 use std::sync::LazyLock;

@@ -99,9 +99,9 @@ fn extremely_thin_ellipsoids() {
     }
 }
 
-/// Cube: polarisability −1.6383 of a perfectly impermeable cube (Sihvola, Helsing et al.), added
-/// mass 0.6383 ρV. Its moment of inertia 0.0392 ρa⁵ was computed with another boundary-element
-/// program, and square prisms 1 × 1 × 2, .334 and .834, too.
+/// Cube: polarisability −1.6383 of a perfectly impermeable cube (Sihvola et al. 2004, *IEEE Trans. Antennas
+/// Propag.* 52), added mass 0.6383 ρV. Its moment of inertia 0.0392 ρa⁵ was computed with another
+/// boundary-element program, and square prisms 1 × 1 × 2, .334 and .834, too.
 #[test]
 fn cube_and_square_prism() {
     let params = BoundaryElementParams {

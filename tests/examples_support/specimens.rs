@@ -40,8 +40,8 @@ fn inertia_agrees_with_the_surface() {
 
 #[test]
 fn the_yen_coin_has_the_published_numbers() {
-    // Thesis § 3.6: d = 2.0 cm, t = 0.15 cm, ρ_s = 2700, water: I* = 1.0e-2, Re = 3.55e3 with U0.
-    // They are printed to two and three digits.
+    // Thesis § 3.6: d = 2.0 cm, t = 0.15 cm, aluminium in water, printed as I* = 10⁻² and Re = 3.55·10³.
+    // With 2700 kg/m³, and 1000 kg/m³ and 0.89·10⁻⁶ m²/s for water (none printed), I* is 9.94·10⁻³.
     let coin = specimen(ShapeName::Disc, &[0.02, 0.0015]);
     let water = Fluid::new(1000.0, 0.89e-6).unwrap();
     assert!((coin.i_star(2700.0, &water) - 9.94e-3).abs() < 1e-4);

@@ -46,7 +46,7 @@ fn end_of(path: &MotionPath, seconds: f64) -> Vec<Vector3<f64>> {
 }
 
 /// At the (Re, I*) that the thesis prints for its three bodies falls end in its patterns. Its coin lies
-/// 12 % above the measured boundary between flutter and chaos, within the 20 % by which discs scatter
+/// 14 % above the measured boundary between flutter and chaos, within the 20 % by which discs scatter
 /// about it, so that flutter is only a neighbour there.
 #[test]
 fn the_worked_bodies() {

@@ -3,10 +3,10 @@
 //! solutions.
 
 use rapier3d::na::{DMatrix, DVector};
-use rapier3d_immersed::reduced::axis::{Axis, Quadrature};
-use rapier3d_immersed::reduced::canonical::Canonical;
-use rapier3d_immersed::reduced::operator::{Factor, Operator};
-use rapier3d_immersed::reduced::pgd::{PgdParams, solve};
+use rapier3d_immersed::reduced::Canonical;
+use rapier3d_immersed::reduced::{Axis, Quadrature};
+use rapier3d_immersed::reduced::{Factor, Operator};
+use rapier3d_immersed::reduced::{PgdParams, solve};
 use std::f64::consts::PI;
 
 fn metric(axes: &[&Axis]) -> Vec<DVector<f64>> {

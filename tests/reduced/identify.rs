@@ -3,9 +3,9 @@
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
-use rapier3d_immersed::reduced::dormand_prince::Tolerances;
-use rapier3d_immersed::reduced::falling_plate::FallingPlate;
-use rapier3d_immersed::reduced::identify::{FitParams, fit};
+use rapier3d_immersed::reduced::FallingPlate;
+use rapier3d_immersed::reduced::Tolerances;
+use rapier3d_immersed::reduced::{FitParams, fit};
 
 const TOLERANCES: Tolerances = Tolerances {
     relative: 1e-7,

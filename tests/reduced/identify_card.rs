@@ -6,7 +6,7 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
 use rapier3d_immersed::rapier3d::na::Vector3;
-use rapier3d_immersed::reduced::identify::{FitParams, fit};
+use rapier3d_immersed::reduced::{FitParams, fit};
 
 /// 600 frames of the first 0.6 s after a throw, every coordinate with noise of 1 % of its range: all
 /// three coefficients within 5 %, and so are velocity, spin, orientation and position at the start.

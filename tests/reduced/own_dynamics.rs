@@ -5,10 +5,10 @@ use crate::errors::Truth;
 use crate::force_coefficients::{Motions, SeparatedForces};
 use crate::free_fall::{Domain, Specimen};
 use rapier3d_immersed::ThesisLaw;
-use rapier3d_immersed::reduced::axis::Axis;
-use rapier3d_immersed::reduced::cross::CrossParams;
-use rapier3d_immersed::reduced::dormand_prince::Tolerances;
-use rapier3d_immersed::reduced::surrogate::TrajectorySurrogate;
+use rapier3d_immersed::reduced::Axis;
+use rapier3d_immersed::reduced::CrossParams;
+use rapier3d_immersed::reduced::Tolerances;
+use rapier3d_immersed::reduced::TrajectorySurrogate;
 
 fn truth(specimen: &Specimen, domain: &Domain, horizons: &[f64], count: usize) -> Truth {
     let axes = domain.axes([2, 2, 2]).unwrap();

@@ -2,11 +2,11 @@
 //! off the grid, relative to the standard deviation of the quantity over the domain.
 
 use crate::errors::Truth;
-use rapier3d_immersed::reduced::axis::Axis;
-use rapier3d_immersed::reduced::cross::CrossParams;
-use rapier3d_immersed::reduced::dormand_prince::Tolerances;
-use rapier3d_immersed::reduced::falling_plate::FallingPlate;
-use rapier3d_immersed::reduced::surrogate::{FlowMap, TrajectorySurrogate};
+use rapier3d_immersed::reduced::Axis;
+use rapier3d_immersed::reduced::CrossParams;
+use rapier3d_immersed::reduced::FallingPlate;
+use rapier3d_immersed::reduced::Tolerances;
+use rapier3d_immersed::reduced::{FlowMap, TrajectorySurrogate};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const TOLERANCES: Tolerances = Tolerances {

@@ -5,17 +5,17 @@ use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d::na::DVector;
-use rapier3d_immersed::reduced::axis::{Axis, Quadrature};
-use rapier3d_immersed::reduced::canonical::Canonical;
-use rapier3d_immersed::reduced::evolution::{Coupling, EvolutionParams, evolve};
+use rapier3d_immersed::reduced::Canonical;
+use rapier3d_immersed::reduced::QuadraticSystem;
+use rapier3d_immersed::reduced::Separated;
 use rapier3d_immersed::reduced::example_systems::{
     coupled_triple, falling_body, falling_body_solution, kirchhoff_ellipsoid, linear,
     linear_solution,
 };
-use rapier3d_immersed::reduced::operator::{Factor, Operator};
-use rapier3d_immersed::reduced::pgd::{PgdParams, solve};
-use rapier3d_immersed::reduced::quadratic::QuadraticSystem;
-use rapier3d_immersed::reduced::separated::Separated;
+use rapier3d_immersed::reduced::{Axis, Quadrature};
+use rapier3d_immersed::reduced::{Coupling, EvolutionParams, evolve};
+use rapier3d_immersed::reduced::{Factor, Operator};
+use rapier3d_immersed::reduced::{PgdParams, solve};
 
 fn params(max_modes: usize, tolerance: f64, update_rounds: usize) -> EvolutionParams {
     EvolutionParams {

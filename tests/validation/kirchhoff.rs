@@ -1,5 +1,5 @@
 //! A body in an ideal fluid without external forces conserves energy, world impulse and world
-//! moment of impulse (Lamb, *Hydrodynamics*, § 124), and its planar motions have closed forms.
+//! moment of impulse (Lamb, *Hydrodynamics*, chapter VI), and its planar motions have closed forms.
 
 use crate::support::{solid_box, weightless};
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
@@ -72,9 +72,9 @@ fn pendulum_period() {
     }
 }
 
-/// The golden value of the reference: M₁ = 1.2, M₂ = 3, J = ½, P = 2, φ₀ = 1 → T = 4.17487646.
+/// A golden value, computed independently: M₁ = 1.2, M₂ = 3, J = ½, P = 2, φ₀ = 1 → T = 4.17487646.
 #[test]
-fn period_formula_reproduces_the_published_value() {
+fn period_formula_reproduces_the_golden_value() {
     let omega0 = 2.0 * ((1.0 / 1.2 - 1.0 / 3.0) / 0.5_f64).sqrt();
     let period = 4.0 * elliptic_k(1.0_f64.sin()) / omega0;
     assert!((period - 4.174_876_46).abs() < 5e-9, "{period}");

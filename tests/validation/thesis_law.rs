@@ -1,6 +1,7 @@
-//! The thesis' law as printed, on the thesis' card (Fig. 5.6 and 5.7): air, release angle 10°, from
-//! rest, 3 s. The sizes are our reading of what the thesis leaves open: semi-axes 3.5 × 2 cm,
-//! thickness 0.4 mm, 800 kg/m³, and a long axis that points down by the release angle.
+//! The thesis' law as printed, on the thesis' card (Fig. 5.6 and 5.7): release angle 10°, from rest,
+//! a = 3.5 cm, b = 2 cm. Our reading of what the thesis leaves open: these are semi-axes, the thickness is
+//! 0.4 mm, the density 800 kg/m³, the fluid air, the fall 3 s long, and the long axis points down by the
+//! release angle.
 
 use rapier3d_immersed::geometry::Ellipsoid;
 use rapier3d_immersed::rapier3d::na::{Matrix3, UnitQuaternion, Vector3};

@@ -14,7 +14,7 @@ use rapier3d_immersed::{Error, HydroProperties};
 use std::f64::consts::PI;
 
 /// Ellipsoids a : b : c with added over displaced mass along the axes, and added over displaced moment of
-/// inertia about them (Lamb, *Hydrodynamics*, § 114, evaluated with Carlson's integrals).
+/// inertia about them (Lamb, *Hydrodynamics*, §§ 114–115, evaluated with Carlson's integrals).
 const ELLIPSOIDS: [([f64; 3], [f64; 3], [f64; 3]); 6] = [
     ([1.0, 1.0, 1.0], [0.5, 0.5, 0.5], [0.0, 0.0, 0.0]),
     (
@@ -90,7 +90,7 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
         let name = format!("ellipsoid {a} : {b} : {c}");
         let formula = errors(&Ellipsoid { semi_axes }.added_mass(), &exact);
         // Half a unit of the last decimal of the smallest entry, .02071, is 2.4e-4 of it.
-        let table = "Lamb § 114, five decimals";
+        let table = "Lamb §§ 114–115, evaluated to five decimals";
         push(
             &mut rows,
             &format!("{name}, formula"),
@@ -100,7 +100,7 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
         );
         let (hydro, _) = thin_ellipsoid(axes, 1.0)?;
         let mesh = errors(&hydro.added_mass, &exact);
-        let source = "Lamb § 114; the triangles lie inside the ellipsoid";
+        let source = "Lamb §§ 114–115; the triangles lie inside the ellipsoid";
         push(
             &mut rows,
             &format!("{name}, proxy of its mesh"),

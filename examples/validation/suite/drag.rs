@@ -20,12 +20,13 @@ fn clift_gauvin(re: f64) -> f64 {
     24.0 / re * (1.0 + 0.15 * re.powf(0.687)) + 0.42 / (1.0 + 42500.0 * re.powf(-1.16))
 }
 
-/// A later fit of the same form, which is what the name stands for in some handbooks.
+/// The same form with other constants, which the Python library `fluids` gives under the same name, after
+/// Barati et al. 2014.
 fn refitted(re: f64) -> f64 {
     24.0 / re * (1.0 + 0.152 * re.powf(0.677)) + 0.417 / (1.0 + 5070.0 * re.powf(-0.94))
 }
 
-/// Schiller & Naumann 1935, Re < 800.
+/// Schiller & Naumann 1933 (often dated 1935), Re < 800.
 fn schiller_naumann(re: f64) -> f64 {
     24.0 / re * (1.0 + 0.15 * re.powf(0.687))
 }
@@ -130,7 +131,7 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
             rows.push(Row::number(case, [measured, ours], "", None, source));
         };
         if re < 800.0 {
-            other(schiller_naumann(re), "Schiller & Naumann 1935");
+            other(schiller_naumann(re), "Schiller & Naumann 1933");
         }
         let source = "refit 24/Re(1 + .152Re^.677) + .417/(1 + 5070Re^-.94)";
         other(refitted(re), source);

@@ -5,8 +5,8 @@ use super::report::Row;
 use super::{Computed, Effort, Failure, Progress};
 use crate::support::draw::{self, Item, Panel, Point};
 use plotters::style::RGBColor;
-use rapier3d_immersed::reduced::dormand_prince::Tolerances;
-use rapier3d_immersed::reduced::falling_plate::FallingPlate;
+use rapier3d_immersed::reduced::FallingPlate;
+use rapier3d_immersed::reduced::Tolerances;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// I*, whether it tumbles, period (tumbling: per half turn), mean drift and descent, largest spin.

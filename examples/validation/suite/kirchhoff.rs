@@ -16,7 +16,7 @@ use rapier3d_immersed::{
     DryMass, Error, Fluid, FreeBody, HydroProperties, ImmersedBody, Immersion, ViscousLaw,
 };
 
-const SOURCE: &str = "Lamb § 124: conserved exactly";
+const SOURCE: &str = "Lamb, chapter VI: conserved exactly";
 /// Period of the swing from φ₀ = 1 with M₁ = 1.2, M₂ = 3, J = ½, P = 2: 4 K(sin φ₀)/ω₀.
 const PERIOD: f64 = 4.174_876_46;
 
@@ -169,7 +169,7 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
     Ok((rows, vec![("kirchhoff.svg".into(), picture(curves)?)]))
 }
 
-/// The published swing: a body of M₁ = 1.2 kg along, M₂ = 3 kg across and J = ½ kg m² with the fluid.
+/// The reference swing: a body of M₁ = 1.2 kg along, M₂ = 3 kg across and J = ½ kg m² with the fluid.
 fn pendulum(rows: &mut Vec<Row>) -> Result<(), Failure> {
     let shape = SharedShape::cuboid(0.5, 0.3, 0.05);
     let added = AddedMass::diagonal(Vec3::new(0.2, 0.5, 2.0), Vec3::new(0.1, 0.25, 0.1));

@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const GRAVITY: Vec3 = Vec3::new(0.0, -9.81, 0.0);
 const SECONDS: f64 = 5.0;
-const SOURCE: &str = "samaras of that weight, about (Azuma & Yasuda 1989)";
+const SOURCE: &str = "bands of ours; Acer palmatum: 1.2 m/s, 131 rad/s (Lee et al. 2014)";
 
 /// Eight ways to let go of it.
 fn release(index: usize) -> Quat {

@@ -100,7 +100,7 @@ fn coefficients(rows: &mut Vec<Row>) -> Result<String, Failure> {
         {
             let case = format!("Fig. 5.4, {name}: {what} over the angle of attack");
             let source =
-                "X(5.15)–(5.17) with the constants of the caption; of the largest coefficient";
+                "thesis (5.15)–(5.17), constants of the caption; of the largest coefficient";
             rows.push(Row::at_most(case, error, Some(1e-3), source));
         }
         let title = format!("{name}: C_D {}, C_L1 {}, C_L2 {}", c[0], c[1], c[2]);

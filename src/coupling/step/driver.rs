@@ -1,11 +1,11 @@
 //! Runs the stages of a step over batches of bodies.
 
 use super::contact_mass;
-use super::integrate::{Batched, integrate};
+use super::integrate::integrate;
 use super::prepare::{self, Preparation};
 use super::sample_fluid::sample_fluid;
 use super::substep_matching::SubstepScheme;
-use super::workspace::{StepContext, Workspace};
+use super::workspace::{Batched, StepContext, Workspace};
 use super::write_back;
 use crate::coupling::control::SeriesTable;
 use crate::coupling::environment::Environment;

@@ -2,37 +2,10 @@
 //! Rapier is not needed for it.
 
 use super::lane_group::LaneGroup;
-use super::workspace::{Disturbance, SeenFlow, StepContext, StepInput, StepOutput};
-use crate::coupling::body_state::{BodyState, IntegratorState};
-use crate::coupling::shared_constants::{ConstantsTable, Route, StepConstants};
+use super::workspace::{Batched, SeenFlow, StepInput, StepOutput};
+use crate::coupling::shared_constants::{Route, StepConstants};
 use crate::math::{Lanes, MOST_LANES, OnLanes, dispatch};
 use fearless_simd::Simd;
-
-/// What the bodies of a batch have in common.
-#[derive(Clone, Copy)]
-pub(super) struct Batched<'a> {
-    pub states: &'a [Option<BodyState>],
-    pub constants: &'a ConstantsTable,
-    pub disturbances: &'a [Disturbance],
-    pub context: &'a StepContext,
-}
-
-impl<'a> Batched<'a> {
-    /// The motion that a body keeps from step to step.
-    #[inline(always)]
-    pub fn motion(&self, input: &StepInput) -> &'a IntegratorState {
-        let state = self.states.get(input.state as usize);
-        let state = state.and_then(Option::as_ref);
-        state.map_or(&IntegratorState::REST, |state| &state.flight.motion)
-    }
-
-    /// What disturbs a body.
-    #[inline(always)]
-    pub fn disturbance(&self, input: &StepInput) -> &'a Disturbance {
-        let disturbance = self.disturbances.get(input.disturbance as usize);
-        disturbance.unwrap_or(&Disturbance::NONE)
-    }
-}
 
 /// Integrates the bodies of a batch, whose constants must all be of one `route`, with the widest
 /// instructions that the machine has; they round alike on all machines. `flows` has one entry per body,

@@ -1,8 +1,7 @@
 //! One step of the bodies that fit into the machine's registers side by side.
 
-use super::integrate::Batched;
 use super::substep_matching::Target;
-use super::workspace::{Disturbance, SeenFlow, StepInput, StepOutput};
+use super::workspace::{Batched, Disturbance, SeenFlow, StepInput, StepOutput};
 use crate::coupling::body_state::{IntegratorState, NONE};
 use crate::coupling::shared_constants::StepConstants;
 use crate::dynamics::integrate::{Load, Motion, advance, substeps};

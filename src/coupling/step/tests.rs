@@ -2,11 +2,14 @@
 
 use super::contact_mass;
 use super::workspace::CloseBodies;
+use crate::body::ImmersedBody;
 use crate::coupling::{Immersion, RapierSets};
 use crate::flow::{GridFlow, Layers, Shear, Vortex};
+use crate::fluid::Fluid;
+use crate::hydro::HydroProperties;
+use crate::hydro::viscous::{StochasticLaw, ThesisLaw, ViscousLaw};
 use crate::math::NARROW;
 use crate::turbulence::{Turbulence, TurbulenceState};
-use crate::{Fluid, HydroProperties, ImmersedBody, StochasticLaw, ThesisLaw, ViscousLaw};
 use rapier3d::prelude::*;
 use std::sync::atomic::Ordering;
 

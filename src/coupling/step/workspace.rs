@@ -1,8 +1,8 @@
 //! What passes between the stages of a step, and the memory for it, which is reused from step to step.
 
 use super::substep_matching::SubstepScheme;
-use crate::coupling::body_state::{FlightState, IntegratorState, TurbulenceMemory};
-use crate::coupling::shared_constants::Route;
+use crate::coupling::body_state::{BodyState, FlightState, IntegratorState, TurbulenceMemory};
+use crate::coupling::shared_constants::{ConstantsTable, Route};
 use crate::dynamics::Integrator;
 use crate::flow::FlowSample;
 use crate::hydro::viscous::ForceFactors;
@@ -167,6 +167,32 @@ impl Batch {
         self.points.clear();
         self.flows.clear();
         self.turbulence.clear();
+    }
+}
+
+/// What the bodies of a batch have in common.
+#[derive(Clone, Copy)]
+pub(in crate::coupling) struct Batched<'a> {
+    pub states: &'a [Option<BodyState>],
+    pub constants: &'a ConstantsTable,
+    pub disturbances: &'a [Disturbance],
+    pub context: &'a StepContext,
+}
+
+impl<'a> Batched<'a> {
+    /// The motion that a body keeps from step to step.
+    #[inline(always)]
+    pub fn motion(&self, input: &StepInput) -> &'a IntegratorState {
+        let state = self.states.get(input.state as usize);
+        let state = state.and_then(Option::as_ref);
+        state.map_or(&IntegratorState::REST, |state| &state.flight.motion)
+    }
+
+    /// What disturbs a body.
+    #[inline(always)]
+    pub fn disturbance(&self, input: &StepInput) -> &'a Disturbance {
+        let disturbance = self.disturbances.get(input.disturbance as usize);
+        disturbance.unwrap_or(&Disturbance::NONE)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Solved shapes, remembered: a thousand equal leaves cost one solve.
 
 use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn};
-use crate::Error;
+use crate::error::Error;
 use crate::geometry::Surface;
 use crate::hydro::AddedMass;
 use rapier3d::math::Vector;
@@ -101,7 +101,7 @@ fn key(surface: &Surface, params: &BoundaryElementParams) -> u128 {
 #[cfg(feature = "serde-serialize")]
 mod file {
     use super::{AddedMassCache, SolvedShape};
-    use crate::Error;
+    use crate::error::Error;
     use crate::file::{FileKind, decode, encode};
 
     const FILE: FileKind = FileKind {

@@ -40,7 +40,7 @@ mod solve;
 
 pub use cache::{AddedMassCache, SolvedShape};
 
-use crate::Error;
+use crate::error::Error;
 use crate::geometry::{Sheet, Surface};
 use crate::hydro::AddedMass;
 use rapier3d::na::Vector3;

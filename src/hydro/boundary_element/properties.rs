@@ -2,7 +2,7 @@
 
 use super::shape::cells;
 use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution};
-use crate::Error;
+use crate::error::Error;
 use crate::geometry::Surface;
 use crate::hydro::{AddedMass, HydroProperties};
 use rapier3d::math::{Pose, Vector};

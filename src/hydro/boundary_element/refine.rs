@@ -6,7 +6,7 @@ use super::{
     BoundaryElementParams, BoundaryElementProgress, BoundaryElementReport, BoundaryElementSolution,
     ProgressFn,
 };
-use crate::Error;
+use crate::error::Error;
 use crate::geometry::{Sheet, Surface, bisect, quality};
 use crate::hydro::AddedMass;
 use rapier3d::na::Vector3;

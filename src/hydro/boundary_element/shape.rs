@@ -1,7 +1,7 @@
 //! Rapier's shapes: meshed to an accuracy.
 
 use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn};
-use crate::Error;
+use crate::error::Error;
 use crate::geometry::{Ellipsoid, Surface};
 use crate::hydro::AddedMass;
 use rapier3d::math::Vector;

@@ -1,7 +1,7 @@
 //! One table of coefficients per law: what a law's struct, its default, its check and everything that
 //! goes through coefficients by name are made from.
 
-use crate::Error;
+use crate::error::Error;
 
 /// What a coefficient may be.
 #[derive(Clone, Copy, Debug, PartialEq)]

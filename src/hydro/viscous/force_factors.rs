@@ -1,7 +1,7 @@
 //! Factors on a law's three forces, set from outside step by step.
 
 use super::terms::{Evaluate, ViscousTerms};
-use crate::Error;
+use crate::error::Error;
 use crate::math::Scalar;
 use rapier3d::math::Real;
 use rapier3d::na::Vector3;

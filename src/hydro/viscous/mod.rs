@@ -31,7 +31,7 @@ pub use physical::PhysicalLaw;
 pub use stochastic::StochasticLaw;
 pub use thesis::ThesisLaw;
 
-use crate::Error;
+use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::math::{Lanes, Scalar};

@@ -10,13 +10,13 @@ use crate::math::{Scalar, scalar_struct};
 use rapier3d::na::Vector3;
 
 coefficients! {
-    /// `F = −½ρA|U| (C_d U + C_l U × (N × U)/|N × U|)` with N the plate normal on the windward side
-    /// (N·U > 0), applied at the center of pressure (thesis (4.7)); made for use together with the
-    /// turbulence of chapter 4.
+    /// `F = −½ρA|U| (C_d U + C_l U × (N × U)/|N × U|)`, applied at the center of pressure (thesis (4.7));
+    /// made for use together with the turbulence of chapter 4.
     ///
-    /// The thesis gives no numbers and no center of pressure: the defaults (the broadside drag of a disc,
-    /// and a moderate lift on a quarter of chapter 5's arm) are ours, and the arm is the one of its
-    /// chapter 5, `(1 − sin³α)·a/2`.
+    /// The thesis does not say what N is, and gives no numbers and no center of pressure. Ours are N, the
+    /// plate normal on the windward side (N·U > 0), and the defaults (the broadside drag of a disc, and a
+    /// moderate lift on a quarter of chapter 5's arm); the arm is the one of its chapter 5,
+    /// `(1 − sin³α)·a/2` with a the major semi-axis.
     pub struct StochasticLaw {
         /// C_d, constant over the angle of attack.
         drag: 1.17, NotNegative;

@@ -62,11 +62,11 @@ impl ThesisLaw {
     pub const AUTOROTATION_ZIGZAG: [f64; 3] = [0.61, 1.81, 1.21];
     /// Autorotation (tumbling) of the card of thesis Fig. 5.6d.
     pub const AUTOROTATION: [f64; 3] = [0.61, 2.71, 0.91];
-    /// Fit to Jones et al. 2013 (thesis Fig. 5.4, data 1).
+    /// Fit to the data of Ju et al. 2013 on flapping flight (thesis Fig. 5.4, data 1).
     pub const FIG_5_4_DATA_1: [f64; 3] = [0.26, 2.98, 0.59];
-    /// Fit to Wang & Pesavento 2003 (thesis Fig. 5.4, data 2).
+    /// Fit to the data of Wu & Popović 2003 on bird flight (thesis Fig. 5.4, data 2).
     pub const FIG_5_4_DATA_2: [f64; 3] = [2.0, 1.02, 0.70];
-    /// Fit to Ol et al. 2009 (thesis Fig. 5.4, data 3).
+    /// Fit to the data of Okamoto, Fujisawa & Miura 2009 on Japanese kites (thesis Fig. 5.4, data 3).
     pub const FIG_5_4_DATA_3: [f64; 3] = [2.70, 1.31, 0.0];
     /// Andersen, Pesavento & Wang 2005, middle of the ranges of thesis Table 5.1.
     pub const ANDERSEN_2005: [f64; 3] = [1.82, 1.0, 1.25];
@@ -74,7 +74,9 @@ impl ThesisLaw {
     pub const PAOLETTI_2011: [f64; 3] = [0.4, 1.2, PI];
     /// Varshney, Chang & Wang 2013 (thesis Table 5.1).
     pub const VARSHNEY_2013: [f64; 3] = [1.06, 0.92, 0.32];
-    /// Huang et al. 2013 (thesis Table 5.1).
+    /// Huang et al. 2013 (thesis Table 5.1), in the table's columns as printed. A public program after that
+    /// paper has 4.5 as its coefficient of translational lift and 1.8 as that of rotational lift: the table
+    /// seems to name the two lifts the other way round than (5.15) does.
     pub const HUANG_2013: [f64; 3] = [0.3, 4.5, 1.8];
     /// Hu & Wang 2014, middle of the ranges of thesis Table 5.1.
     pub const HU_2014: [f64; 3] = [1.9, PI, PI / 2.0];
@@ -121,8 +123,9 @@ scalar_struct! {
     }
 }
 
-/// Torque arm of the thesis's laws: `(1 − sin³α)·a/2` along the in-plane velocity (thesis, text
-/// after (5.18): a quarter of the major axis in ideal flow), for the semi-axis `a`.
+/// Torque arm of the thesis's laws, `(1 − sin³α)·a/2` for the semi-axis `a` (thesis, text after (5.18):
+/// `(1 − sin³α)·a/4` for the whole axis, a quarter of it in ideal flow). That it points along the in-plane
+/// velocity is ours: the thesis gives its length only.
 #[inline(always)]
 pub(super) fn pressure_arm<T: Scalar>(u: &Vector3<T>, semi_axis: T) -> Vector3<T> {
     let tangential = (u.x * u.x + u.y * u.y).sqrt();

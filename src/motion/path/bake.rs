@@ -3,7 +3,7 @@
 use super::database::{Entry, TrajectoryDatabase, place};
 use super::segment::{Glide, HarmonicFlutter, Segment};
 use super::tanabe_kaneko::{AngleCurve, Fall, TanabeKaneko};
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::Vector2;
 use smartcore::cluster::kmeans::{KMeans, KMeansParameters};
 use smartcore::linalg::basic::matrix::DenseMatrix;

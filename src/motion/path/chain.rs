@@ -1,6 +1,6 @@
 //! The Markov chain over the six regimes (thesis § 3.4).
 
-use crate::Error;
+use crate::error::Error;
 use crate::motion::{MotionGraph, Regime};
 
 /// Probability that a fall goes on in its regime at a turning point, by default.
@@ -13,7 +13,7 @@ impl MotionGraph {
     /// The thesis prints the form of P and how to count it, but no numbers. These are ours: a fall stays
     /// in its regime for four segments on average (probability ¾); each regime further on is half as
     /// likely as the one before it; any start is as likely as any other ("starts from a random
-    /// pattern"). [`MotionGraph::estimate`] counts a graph from labelled falls.
+    /// motion pattern"). [`MotionGraph::estimate`] counts a graph from labelled falls.
     pub fn free_fall() -> Self {
         let states = Regime::ALL.len();
         let row = |from: usize| -> Vec<f64> {

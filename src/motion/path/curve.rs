@@ -1,6 +1,6 @@
 //! Steady descent, spiral and helix as one curve (thesis (3.7)–(3.8)).
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::Vector3;
 
 /// x = A cos φ (1 + ε sin kφ), z = A sin φ (1 + ε sin kφ), y = −Ut with φ = Ωt, y up (the thesis's z).

@@ -3,7 +3,7 @@
 
 use super::segment::{HarmonicFlutter, Segment};
 use super::tanabe_kaneko::AngleCurve;
-use crate::Error;
+use crate::error::Error;
 use rand::{Rng, RngExt};
 use rapier3d::na::Vector2;
 use rstar::RTree;

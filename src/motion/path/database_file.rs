@@ -3,7 +3,7 @@
 use super::database::{Entry, TrajectoryDatabase};
 use super::segment::{Glide, HarmonicFlutter, Segment};
 use super::tanabe_kaneko::AngleCurve;
-use crate::Error;
+use crate::error::Error;
 use crate::file::{FileKind, Reader, Writer};
 use rapier3d::na::Vector2;
 

@@ -7,24 +7,24 @@
 //! Two sorts of coordinates: the *glide plane* has x along the glide and y up, angles counter-clockwise
 //! from x to y; the *fall's frame* has y up, the glide plane at z = 0, and the release at its origin.
 
-pub mod amplitude;
+mod amplitude;
 #[cfg(feature = "bake")]
 mod bake;
-pub mod chain;
-pub mod curve;
-pub mod database;
+mod chain;
+mod curve;
+mod database;
 mod database_file;
 mod drift;
 mod level;
-pub mod params;
+mod params;
 mod piece;
-pub mod search_tree;
-pub mod segment;
-pub mod shape;
-pub mod synthesis;
-pub mod tanabe_kaneko;
-pub mod track;
-pub mod wind;
+mod search_tree;
+mod segment;
+mod shape;
+mod synthesis;
+mod tanabe_kaneko;
+mod track;
+mod wind;
 
 pub use amplitude::{Deviation, chaotic_factor};
 #[cfg(feature = "bake")]
@@ -37,6 +37,6 @@ pub use search_tree::SearchTree;
 pub use segment::{Glide, HarmonicFlutter, Segment};
 pub use shape::HorizontalShape;
 pub use synthesis::Synthesizer;
-pub use tanabe_kaneko::{AngleCurve, Fall, TanabeKaneko};
+pub use tanabe_kaneko::{AngleCurve, Fall, State, TanabeKaneko};
 pub use track::{Key, MotionPath};
 pub use wind::WindResponse;

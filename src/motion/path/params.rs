@@ -1,7 +1,7 @@
 //! What a user chooses about synthesized falls.
 
 use super::amplitude::Deviation;
-use crate::Error;
+use crate::error::Error;
 use crate::motion::phase_diagram::Case;
 use crate::motion::{MotionGraph, PhaseDiagram, Regime};
 
@@ -19,8 +19,8 @@ pub struct SynthesisParams {
     /// How far falls land from below their release; gives the amplitude too. Default
     /// [`Deviation::default`].
     pub deviation: Deviation,
-    /// Ω over U/a: angular frequency of flutter and tumbling, Ω ~ √((ρ_s/ρ_f − 1) g b)/a (thesis
-    /// § 3.3.5). Default 1.
+    /// Ω over U/a: angular frequency of flutter and tumbling, Ω ~ √((ρ_s/ρ_f − 1) g b)/a (thesis § 3.3.5 has
+    /// √b/a, after Mahadevan, Ryu & Samuel 1999). Default 1.
     pub frequency: f64,
     /// Amplitude over the A_0 of (3.10), whose swing is just as fast as the fall drifts away, so that
     /// nothing would ever swing back. Default 2.5 (ours).

@@ -1,6 +1,6 @@
 //! Motion segments: a harmonic flutter cut at its turning points (thesis (3.6)).
 
-use crate::Error;
+use crate::error::Error;
 use rapier3d::na::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -6,7 +6,7 @@ use super::drift::Drifts;
 use super::params::SynthesisParams;
 use super::piece::{Instant, Units};
 use super::track::{Key, MotionPath};
-use crate::Error;
+use crate::error::Error;
 use crate::math::{to_real, to_rotation};
 use crate::motion::{DimensionlessNumbers, MotionGraph, Regime};
 use rand::SeedableRng;
@@ -203,7 +203,7 @@ impl Synthesizer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Fluid;
+    use crate::fluid::Fluid;
     use crate::motion::Outline;
     use crate::motion::path::Deviation;
     use crate::motion::path::motion_classes;

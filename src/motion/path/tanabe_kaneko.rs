@@ -7,7 +7,7 @@
 //! up (V = (1, −.2), θ = 0 gives k = 1 and ÿ < 0), so that nothing ever flutters. With the sign reversed
 //! the lift opposes the velocity normal to the plate, and A⊥ = 4.1, A∥ = 0.9 flutters as in Fig. 3.4a.
 
-use crate::Error;
+use crate::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A strip in its glide plane: linear drag, Kutta lift, and the torque of its center of pressure.

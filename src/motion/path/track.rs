@@ -1,6 +1,6 @@
 //! A fall as keyframes, evaluated at any time.
 
-use crate::Error;
+use crate::error::Error;
 use crate::motion::Regime;
 use rapier3d::math::{Real, Rotation, Vector};
 

@@ -1,7 +1,7 @@
 //! Falls in wind: displacement by the flow, Bézier smoothing, and leaning (thesis § 3.5.2).
 
 use super::track::{Key, MotionPath};
-use crate::Error;
+use crate::error::Error;
 use crate::flow::Flow;
 use rapier3d::math::{Real, Rotation, Vector};
 

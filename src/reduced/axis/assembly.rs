@@ -1,7 +1,7 @@
 //! Matrices and loads of an axis: the one-dimensional integrals of thesis (6.9).
 
 use super::{Axis, Family, MAX_DEGREE};
-use crate::Error;
+use crate::error::Error;
 use crate::reduced::legendre::Rule;
 use rapier3d::na::{DMatrix, DVector};
 
@@ -173,7 +173,7 @@ mod tests {
         assert!((axis.weights().iter().sum::<f64>() - 2.0).abs() < 1e-13);
     }
 
-    /// Three-stage Radau IIA coefficients, Hairer & Wanner II, table IV.5.6, and the exact integral
+    /// Three-stage Radau IIA coefficients, Hairer & Wanner II, § IV.5, and the exact integral
     /// of the polynomials it covers.
     #[test]
     fn integral_is_radau_iia() {

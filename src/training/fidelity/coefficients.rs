@@ -1,79 +1,58 @@
 //! The coefficients that a search may change, and within which bounds.
 
-use crate::PhysicalLaw;
+use crate::hydro::viscous::{Coefficient, PhysicalLaw};
 
-/// One coefficient of the default law.
-#[derive(Clone, Copy, Debug)]
-pub struct Coefficient {
-    /// Name of the field.
-    pub name: &'static str,
-    /// Bounds of the search.
-    pub bounds: [f64; 2],
-    field: fn(&mut PhysicalLaw) -> &mut f64,
+/// The coefficients of the default law that the measurements of falls decide about, with the limits
+/// between which a search looks for them. Not among them are those of bodies that are not plates, which
+/// have measurements of their own.
+pub fn searched() -> impl Iterator<Item = (&'static Coefficient<PhysicalLaw>, [f64; 2])> {
+    let rows = PhysicalLaw::COEFFICIENTS.iter();
+    rows.filter_map(|row| row.search.map(|limits| (row, limits)))
 }
 
-macro_rules! coefficients {
-    ($($name:ident $low:literal $high:literal)*) => {
-        /// Those that the measurements decide about. Not among them are the coefficients of creeping
-        /// flow and of bodies that are not plates, which have measurements of their own.
-        pub const COEFFICIENTS: &[Coefficient] = &[$(Coefficient {
-            name: stringify!($name),
-            bounds: [$low, $high],
-            field: |law| &mut law.$name,
-        }),*];
+/// The places of a law's coefficients between their limits, 0 to 1, in the order of [`searched`].
+pub fn places(law: &PhysicalLaw) -> Vec<f64> {
+    let place = |(row, [low, high]): (&Coefficient<PhysicalLaw>, [f64; 2])| {
+        (row.of(law) - low) / (high - low)
     };
+    searched().map(place).collect()
 }
 
-coefficients! {
-    pressure_travel 0.0 0.3
-    attached_lift 1.5 7.0
-    attached_aspect 0.3 6.0
-    stalled_lift 0.2 3.0
-    stalled_aspect 0.0 6.0
-    stall_sine 0.2 1.5
-    stall_width 0.05 1.2
-    rotational_lift 0.2 4.0
-    rotational_aspect 0.0 12.0
-    rotational_stall 0.0 1.0
-    munk 0.0 1.0
-    translation_damping 0.0 1.5
-    rotation_damping 0.0 10.0
-    friction 1.0 9.0
-    edge_drag 0.0 2.0
-    lift_onset 50.0 140.0
-    damping_onset 0.0 60.0
-    suction_loss 0.0 1.3
-    induced_drag 0.0 3.0
-}
-
-impl Coefficient {
-    /// Its value in a law.
-    pub fn of(&self, law: &PhysicalLaw) -> f64 {
-        *(self.field)(&mut law.clone())
-    }
-
-    /// Its place between its bounds in a law, 0 to 1.
-    pub fn place(&self, law: &PhysicalLaw) -> f64 {
-        let [low, high] = self.bounds;
-        (self.of(law) - low) / (high - low)
-    }
-}
-
-/// The default law with its coefficients at these places between their bounds; places beyond 0 and 1
+/// The default law with its coefficients at these places between their limits; places beyond 0 and 1
 /// are brought back.
 ///
 /// # Panics
-/// If there are not as many places as [`COEFFICIENTS`].
+/// If there are not as many places as [`searched`] has coefficients.
 pub fn law_at(places: &[f64]) -> PhysicalLaw {
     assert_eq!(
         places.len(),
-        COEFFICIENTS.len(),
+        searched().count(),
         "one place per coefficient"
     );
     let mut law = PhysicalLaw::default();
-    for (coefficient, place) in COEFFICIENTS.iter().zip(places) {
-        let [low, high] = coefficient.bounds;
-        *(coefficient.field)(&mut law) = low + (high - low) * place.clamp(0.0, 1.0);
+    for ((row, [low, high]), place) in searched().zip(places) {
+        *(row.field)(&mut law) = low + (high - low) * place.clamp(0.0, 1.0);
     }
     law
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The default law is within the limits of its own search, and found again from its places.
+    #[test]
+    fn the_default_law_can_be_found() {
+        let default = PhysicalLaw::default();
+        let places = places(&default);
+        assert!(places.iter().all(|place| (0.0..=1.0).contains(place)));
+        let again = law_at(&places);
+        for row in PhysicalLaw::COEFFICIENTS {
+            assert!(
+                (row.of(&again) - row.of(&default)).abs() < 1e-12,
+                "{}",
+                row.name
+            );
+        }
+    }
 }

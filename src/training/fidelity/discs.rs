@@ -2,9 +2,13 @@
 
 use super::measured_discs::MEASURED;
 use super::{Shake, uniform_disc};
+use crate::body::{DryMass, ImmersedBody};
+use crate::error::Error;
+use crate::fluid::Fluid;
+use crate::hydro::HydroProperties;
+use crate::hydro::viscous::ViscousLaw;
 use crate::motion::{Classifier, DimensionlessNumbers, Outline, PhaseDiagram, Regime, Trajectory};
 use crate::training::{Experiment, Release};
-use crate::{DryMass, Error, Fluid, HydroProperties, ImmersedBody, ViscousLaw};
 use rapier3d::parry::shape::Cylinder;
 use std::f64::consts::PI;
 
@@ -64,7 +68,7 @@ pub fn map_class(regime: Regime) -> Regime {
 }
 
 impl Disc {
-    /// Every disc of Field et al. (1997) that was digitised.
+    /// Every disc of Field et al. (1997) that the public data of Howison et al. (2020) hold.
     ///
     /// # Errors
     /// None for these numbers.
@@ -184,7 +188,8 @@ fn off_by(reynolds: f64, i_star: f64, regime: Regime) -> f64 {
 mod tests {
     use super::*;
 
-    /// The labels were read off the measured points' own symbols, the curves drawn through them.
+    /// The labels are numbers beside the points of the data set, whose meaning was inferred from where the
+    /// points lie; the curves are that data set's, too.
     #[test]
     fn the_curves_agree_with_the_points() {
         let right = MEASURED

@@ -8,7 +8,7 @@ const C: Regime = Regime::TransitionalChaotic;
 const T: Regime = Regime::PeriodicTumbling;
 
 /// (Re by mean descent, I*, motion): the discs of Field, Klaus, Moore & Nori, *Nature* 388 (1997),
-/// digitised by Howison et al. (2020).
+/// as the public data of Howison et al. (2020) hold them.
 #[rustfmt::skip]
 pub(super) const MEASURED: [(f64, f64, Regime); 200] = [
     (23.83, 3.892e-03, S), (33.62, 3.892e-03, S), (24.05, 4.835e-03, S), (36.22, 4.835e-03, S),

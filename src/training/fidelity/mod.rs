@@ -25,7 +25,7 @@
 //! # }
 //! ```
 
-pub mod coefficients;
+mod coefficients;
 mod cost;
 mod discs;
 mod measured_discs;
@@ -33,7 +33,7 @@ mod papers;
 mod plates;
 mod report;
 
-pub use coefficients::Coefficient;
+pub use coefficients::{law_at, places, searched};
 pub use cost::Cost;
 pub use discs::{Disc, DiscFall, map_class};
 pub use papers::{Cut, PaperDrop, PaperFall, TumblingShare};
@@ -41,8 +41,10 @@ pub use plates::{Plate, PlateFall};
 pub use report::{DiscMap, PaperResult, PlateResult, Report, ShareResult};
 
 use super::{Experiment, Release};
+use crate::body::DryMass;
+use crate::error::Error;
+use crate::hydro::viscous::ViscousLaw;
 use crate::motion::Trajectory;
-use crate::{DryMass, Error, ViscousLaw};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;

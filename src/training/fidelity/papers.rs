@@ -2,9 +2,13 @@
 //! of their public repository.
 
 use super::{Shake, uniform_disc};
+use crate::body::{DryMass, ImmersedBody};
+use crate::error::Error;
+use crate::fluid::Fluid;
+use crate::hydro::HydroProperties;
+use crate::hydro::viscous::ViscousLaw;
 use crate::motion::{Classifier, Trajectory};
 use crate::training::{Experiment, Release};
-use crate::{DryMass, Error, Fluid, HydroProperties, ImmersedBody, ViscousLaw};
 use rapier3d::geometry::SharedShape;
 use rapier3d::math::Vector;
 use rapier3d::na::{Matrix3, Vector3};
@@ -15,12 +19,14 @@ const GRAMMAGE: f64 = 0.070;
 const THICKNESS: f64 = 69.4e-6;
 /// The air of the published analysis.
 const AIR: (f32, f32) = (1.2754, 1.48e-5);
-/// A drop is 1.1 m high and analysed between 0.7 and 0.05 m above the floor: depths below the release, m.
+/// A drop is taken as 1.1 m high. Means are over what lies between 0.7 m (ours) and 0.05 m above the floor
+/// (where the published analysis ends): depths below the release, m.
 const WINDOW: (f64, f64) = (0.40, 1.05);
-/// Released by hand. How evenly was not published: ours, deviations of tilt (rad) and spin (rad/s).
+/// A robot dropped them. How evenly is not known to us: ours, deviations of tilt (rad) and spin (rad/s).
 const SHAKE: (f64, f64) = (0.1, 0.3);
-/// A drop tumbles if it flips at least so often, and at least this share of its turns go on: how the
-/// published analysis decides is not stated, but one flip is no tumbling.
+/// A drop tumbles if it flips at least so often, and at least this share of its turns go on: ours, since one
+/// flip is no tumbling. The published analysis puts the tracks into two clusters, by how often the visible
+/// area peaks and how much the vertical speed varies.
 const TUMBLES: (u32, f64) = (2, 0.8);
 
 /// Outline of a piece of paper.
@@ -106,7 +112,7 @@ impl PaperFall {
 }
 
 impl PaperDrop {
-    /// The sets of the published table.
+    /// The sets, with means and deviations that were computed from the tracks in the public repository.
     ///
     /// # Errors
     /// None for these numbers.
@@ -154,7 +160,7 @@ impl PaperDrop {
 }
 
 impl TumblingShare {
-    /// The five sizes of the published table.
+    /// Five classes of size, with shares that were counted from the labels in the public repository.
     ///
     /// # Errors
     /// None for these numbers.

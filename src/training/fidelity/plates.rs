@@ -1,9 +1,13 @@
 //! Plates that fall through water: Andersen, Pesavento & Wang, *J. Fluid Mech.* 541 (2005).
 
 use super::{Shake, uniform_box};
+use crate::body::{DryMass, ImmersedBody};
+use crate::error::Error;
+use crate::fluid::Fluid;
+use crate::hydro::HydroProperties;
+use crate::hydro::viscous::ViscousLaw;
 use crate::motion::{Classifier, Regime, Trajectory};
 use crate::training::{Experiment, Release};
-use crate::{DryMass, Error, Fluid, HydroProperties, ImmersedBody, ViscousLaw};
 use rapier3d::math::Vector;
 use rapier3d::parry::shape::Cuboid;
 use std::f64::consts::FRAC_PI_2;
@@ -53,8 +57,8 @@ pub struct PlateFall {
 }
 
 impl Plate {
-    /// The plates of the paper: β = 1/8 tumbles, 1/10 is apparently chaotic, 1/14 flutters; and the two
-    /// on either side of 1/10 that a law has to send into chaos too.
+    /// The plates of the paper: β = 1/8 tumbles, 1/10 is apparently chaotic, 1/14 flutters; and two on either
+    /// side of 1/10, whose regime is not from the paper: a law is expected to send them into chaos too.
     ///
     /// # Errors
     /// None for these numbers.
@@ -71,7 +75,7 @@ impl Plate {
             Self::new(1.0 / 10.0, TransitionalChaotic)?,
             Self::new(1.0 / 11.0, TransitionalChaotic)?,
             Self {
-                // Re = 1147 on the chord.
+                // Not a printed speed: it follows from Re = 1147 on the chord.
                 descent: Some(0.090),
                 ..Self::new(1.0 / 14.0, PeriodicFlutter)?
             },

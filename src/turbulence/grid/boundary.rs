@@ -1,7 +1,7 @@
 //! What is at the ends of the box.
 
 use super::{Array3, End};
-use crate::Error;
+use crate::error::Error;
 use crate::flow::Flow;
 use rapier3d::math::{Real, Vector};
 use std::sync::Arc;

@@ -21,7 +21,7 @@ pub(crate) use array::Array3;
 pub(crate) use boundary::Sides;
 pub(super) use separable::{End, Separable};
 
-use crate::Error;
+use crate::error::Error;
 use projection::Projection;
 
 /// What [`MacGrid::new`] needs to know.

@@ -1,7 +1,7 @@
 //! What can be asked of the flow.
 
 use super::{Array3, MacGrid};
-use crate::Error;
+use crate::error::Error;
 use crate::flow::GridFlow;
 use rapier3d::math::{Real, Vector};
 

@@ -1,6 +1,6 @@
 //! What rapier's bodies are made of, read in f64, and mass properties that rapier gets right.
 
-use crate::body::DryMass;
+use super::DryMass;
 use crate::error::Error;
 use crate::geometry::Surface;
 use crate::hydro::{Accuracy, HydroProperties};
@@ -136,13 +136,13 @@ impl DryMass {
 }
 
 /// How far rapier's inertia tensor is from the right one, relative to its largest entry.
-pub(super) fn inertia_error(rapier: &MassProperties, right: &DryMass) -> f64 {
+pub(crate) fn inertia_error(rapier: &MassProperties, right: &DryMass) -> f64 {
     let theirs = inertia(rapier);
     (theirs - right.inertia).amax() / right.inertia.amax()
 }
 
 /// The inertia tensor that rapier's mass properties stand for, body axes, kg·m².
-pub(super) fn inertia(rapier: &MassProperties) -> Matrix3<f64> {
+pub(crate) fn inertia(rapier: &MassProperties) -> Matrix3<f64> {
     of_mass_properties(rapier, &Pose::IDENTITY).inertia
 }
 
@@ -170,7 +170,7 @@ fn attached<'a>(
 }
 
 /// Whether a collider's mass comes from its shape, and at which density.
-pub(super) fn uniform_density(collider: &Collider) -> Option<f32> {
+pub(crate) fn uniform_density(collider: &Collider) -> Option<f32> {
     let density = collider.density();
     (collider.shape().mass_properties(density) == collider.mass_properties()).then_some(density)
 }

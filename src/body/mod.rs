@@ -1,5 +1,7 @@
 //! The description of an immersed body: its shape as the fluid feels it, its law, and its own mass.
 
+pub(crate) mod from_rapier;
+
 use crate::error::Error;
 use crate::geometry::Surface;
 use crate::hydro::HydroProperties;
