@@ -1,4 +1,72 @@
-//! Immersed rigid body dynamics for rapier3d.
+//! Immersed rigid body dynamics for [rapier3d]: bodies that rapier holds fly through air and water, and go
+//! on colliding, stacking and jointing through rapier.
+//!
+//! ```
+//! use rapier3d_immersed::rapier3d::prelude::*;
+//! use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+//!
+//! let mut world = PhysicsWorld::new();
+//! let leaf = ColliderBuilder::cuboid(0.0365, 0.00015, 0.021).density(300.0);
+//! let (leaf, _) = world.insert(RigidBodyBuilder::dynamic().rotation(Vector::X * 0.3), leaf);
+//!
+//! let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaf)?;
+//! let mut immersion = Immersion::new(Fluid::AIR);
+//! immersion.insert(leaf, hydro);
+//! for _ in 0..60 {
+//!     immersion.step(&mut world); // instead of `world.step()`
+//! }
+//! assert!(world.bodies[leaf].linvel().length() < 4.0); // after a second rapier alone has 9.8 m/s
+//! # Ok::<(), rapier3d_immersed::Error>(())
+//! ```
+//!
+//! # Where to find what
+//!
+//! | you want to | start at |
+//! |---|---|
+//! | let bodies of a rapier world fly | [`Immersion`], [`HydroProperties`], [`Fluid`] |
+//! | do so where something else steps rapier | [`Immersion::before_step`], [`RapierSets`] |
+//! | choose how the fluid pushes back | [`ImmersedBody`], [`ViscousLaw`] |
+//! | know what a shape's added mass is | [`HydroProperties::added_mass`], [`Accuracy`], [`boundary_element`] |
+//! | let the fluid move | [`flow`], [`turbulence`] |
+//! | see every force on a body | [`Immersion::forces`] |
+//! | steer how a body falls | [`Immersion::set_control`], [`Immersion::replay`], [`training`] |
+//! | fly one body without rapier, in f64 | [`FreeBody`] |
+//! | name and classify motions | [`motion`] |
+//! | put falls together from a motion graph | [`motion::path`], [`playback`] |
+//! | stack bodies of centimeters | [`preset`] |
+//! | replace a simulation by a formula | [`reduced`] |
+//!
+//! # The house
+//!
+//! Data runs one way: shape → surface ([`geometry`]) → [`HydroProperties`] → [`ImmersedBody`] → the equations
+//! of motion ([`FreeBody`]) → rapier's bodies ([`Immersion`]). What is above a module may use it, never the
+//! other way round:
+//!
+//! ```text
+//! training   playback      sweeps, plans, fits; bodies on synthesized paths
+//!     coupling             Immersion: the bridge to rapier
+//!      motion              patterns, phase diagram, codebooks, paths
+//!     dynamics             Kirchhoff's equations, the integrator, FreeBody
+//!       body               ImmersedBody, DryMass
+//! hydro   turbulence       added mass, viscous laws; k–ε, Langevin
+//! geometry  flow  reduced  surfaces; velocity fields; separated representations
+//! math  file  fluid        scalars and lanes; sealed tables; density and viscosity
+//!       error              the one error type
+//! ```
+//!
+//! # Units and conventions
+//!
+//! SI units throughout; world axes are rapier's. *Plate axes* are those of a body's shape: x along its
+//! longest, z along its shortest principal axis. What is computed once is computed in `f64`, what is stepped
+//! in rapier's `Real`.
+//!
+//! Bad input is an [`Error`] that names the value, when something is built, baked or loaded. A step never
+//! fails and never panics: what a user should know of it is a [`Warning`].
+//!
+//! # Features
+//!
+//! `parallel`, `serde-serialize` and `enhanced-determinism` mirror rapier's. `bake` adds the offline solvers
+//! (boundary elements, flow solver, wind synthesis).
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
@@ -32,7 +100,7 @@ pub use hydro::viscous::{
 pub use hydro::{Accuracy, AddedMass, HydroProperties, Planform, StokesResistance};
 pub use rapier3d;
 
-/// README's examples run as tests.
+/// The examples in the README run as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

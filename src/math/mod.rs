@@ -1,13 +1,15 @@
 //! Scalars, lanes, and the border between the f64 of what is computed once and the `Real` of rapier's world.
 
+pub(crate) mod fields;
 mod lanes;
-pub(crate) mod scalar;
+mod scalar;
 pub(crate) mod spatial;
 
+pub(crate) use fields::scalar_struct;
 #[cfg(test)]
 pub(crate) use lanes::NARROW;
 pub(crate) use lanes::{Lanes, MOST_LANES, OnLanes, Row, dispatch, row, vector};
-pub(crate) use scalar::{Scalar, scalar_struct};
+pub(crate) use scalar::Scalar;
 
 use rapier3d::math::{Pose, Rotation, Vector};
 use rapier3d::na::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};

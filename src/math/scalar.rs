@@ -7,10 +7,7 @@
 //! of its kind; and nalgebra's zeros and ones, which need no value, are out of reach, so that products
 //! of matrices are written out ([`spatial`](super::spatial)).
 
-use super::Lanes;
-use fearless_simd::Simd;
 use rapier3d::na::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
-use rapier3d::na::{Matrix3, Vector3};
 use std::fmt::Debug;
 use std::ops::Neg;
 
@@ -187,129 +184,6 @@ pub(super) fn logarithm<T: Binary32>(x: T) -> T {
     let small = p * s2 * s + n * x.constant(LN_2[1]);
     (s + s) + small + n * x.constant(LN_2[0])
 }
-
-/// What a field of a [`scalar_struct`] can be: a scalar, a vector or a matrix.
-pub(crate) trait Field {
-    /// The scalar that it is made of.
-    type Component: Copy;
-    /// The same field made of another scalar.
-    type Of<U: Copy + Debug + PartialEq + 'static>;
-
-    /// Component `i`, in an order of the field's own.
-    fn component(&self, i: usize) -> Self::Component;
-    /// The field of which `of` gives the components.
-    fn from_components<U: Copy + Debug + PartialEq + 'static>(
-        of: impl Fn(usize) -> U,
-    ) -> Self::Of<U>;
-}
-
-/// The three kinds of field, for one type of component.
-macro_rules! fields_of {
-    ($type:ident) => {
-        impl Field for $type {
-            type Component = $type;
-            type Of<U: Copy + Debug + PartialEq + 'static> = U;
-            #[inline(always)]
-            fn component(&self, _i: usize) -> $type {
-                *self
-            }
-            #[inline(always)]
-            fn from_components<U: Copy + Debug + PartialEq + 'static>(
-                of: impl Fn(usize) -> U,
-            ) -> U {
-                of(0)
-            }
-        }
-
-        impl Field for Vector3<$type> {
-            type Component = $type;
-            type Of<U: Copy + Debug + PartialEq + 'static> = Vector3<U>;
-            #[inline(always)]
-            fn component(&self, i: usize) -> $type {
-                self[i]
-            }
-            #[inline(always)]
-            fn from_components<U: Copy + Debug + PartialEq + 'static>(
-                of: impl Fn(usize) -> U,
-            ) -> Vector3<U> {
-                Vector3::new(of(0), of(1), of(2))
-            }
-        }
-
-        impl Field for Matrix3<$type> {
-            type Component = $type;
-            type Of<U: Copy + Debug + PartialEq + 'static> = Matrix3<U>;
-            #[inline(always)]
-            fn component(&self, i: usize) -> $type {
-                self[(i / 3, i % 3)]
-            }
-                    #[inline(always)]
-                    #[rustfmt::skip]
-            fn from_components<U: Copy + Debug + PartialEq + 'static>(
-                        of: impl Fn(usize) -> U,
-                    ) -> Matrix3<U> {
-                        Matrix3::new(of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8))
-                    }
-        }
-    };
-}
-fields_of!(f64);
-fields_of!(f32);
-
-/// A field in the nearest f32.
-#[inline]
-pub(crate) fn rounded<F: Field<Component = f64>>(field: &F) -> F::Of<f32> {
-    F::from_components(|i| field.component(i) as f32)
-}
-
-/// A field of one body in every lane.
-#[inline(always)]
-pub(crate) fn splat<S: Simd, F: Field<Component = f32>>(simd: S, field: &F) -> F::Of<Lanes<S>> {
-    F::from_components(|i| Lanes::splat(simd, field.component(i)))
-}
-
-/// A field of one body in each lane.
-#[inline(always)]
-pub(crate) fn gather<'a, S: Simd, F: Field<Component = f32> + 'a>(
-    simd: S,
-    of: impl Fn(usize) -> &'a F,
-) -> F::Of<Lanes<S>> {
-    F::from_components(|i| Lanes::from_fn(simd, |lane| of(lane).component(i)))
-}
-
-/// Defines a struct that is generic over the scalar `T` of its fields (each is `T`, `Vector3<T>` or
-/// `Matrix3<T>`): computed in f64, kept in f32, used in lanes.
-macro_rules! scalar_struct {
-    ($(#[$meta:meta])* $vis:vis struct $name:ident<T> { $($(#[$field_meta:meta])* $field:ident: $type:ty,)+ }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        $vis struct $name<T> {
-            $($(#[$field_meta])* pub(crate) $field: $type,)+
-        }
-
-        impl $name<f64> {
-            /// The nearest constants in f32.
-            pub(crate) fn rounded(&self) -> $name<f32> {
-                $name { $($field: $crate::math::scalar::rounded(&self.$field),)+ }
-            }
-        }
-
-        impl<S: fearless_simd::Simd> $name<$crate::math::Lanes<S>> {
-            /// The same constants in every lane.
-            #[inline(always)]
-            pub(crate) fn splat(simd: S, constants: &$name<f32>) -> Self {
-                Self { $($field: $crate::math::scalar::splat(simd, &constants.$field),)+ }
-            }
-
-            /// The constants of one body in each lane.
-            #[inline(always)]
-            pub(crate) fn gather<'a>(simd: S, of: impl Fn(usize) -> &'a $name<f32>) -> Self {
-                Self { $($field: $crate::math::scalar::gather(simd, |lane| &of(lane).$field),)+ }
-            }
-        }
-    };
-}
-pub(crate) use scalar_struct;
 
 #[cfg(test)]
 mod tests {
