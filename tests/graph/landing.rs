@@ -67,26 +67,29 @@ fn the_test_can_fail() {
 /// 1 % level for a distribution that is known (Stephens, *J. Am. Stat. Assoc.* 69, 1974).
 const CRITICAL: f64 = 3.857;
 
+/// D = k B (L/a) h and the deviation k C (L/a) h/√2 (thesis (3.9)) by hand, of the documented k = 1, B = .3
+/// and C = .15; a steady fall drifts a tenth as far. The numbers are ours: that real falls land so is not
+/// tested.
 #[test]
 fn landings_are_normal_in_every_pattern() {
     let deviation = Deviation {
         across: 0.08,
         ..Deviation::default()
     };
+    let distance = |per_height: f64| per_height * ASPECT * HEIGHT;
     for regime in Regime::ALL {
         let synthesizer = leaf(SynthesisParams {
             interval: 0.05,
             deviation,
             ..up_to(regime, HEIGHT)
         });
-        // A steady fall drifts a tenth as far.
         let share = match regime {
             Regime::SteadyDescent => 0.1,
             _ => 1.0,
         };
-        let mean = share * deviation.distance(ASPECT, HEIGHT);
-        let spread = share * deviation.spread(ASPECT, HEIGHT);
-        let spread_across = share * deviation.spread_across(ASPECT, HEIGHT);
+        let mean = share * distance(0.3);
+        let spread = share * distance(0.15) / 2f64.sqrt();
+        let spread_across = share * distance(0.08) / 2f64.sqrt();
         let (mut along, mut across) = (Vec::new(), Vec::new());
         for seed in 0..FALLS {
             let path = synthesizer.path_through(&[regime], seed).unwrap();

@@ -1,5 +1,7 @@
 //! Graph-based synthesis: what falls that are put together from segments must keep to.
 
+mod bodies;
+mod chain;
 mod kinematic;
 mod landing;
 mod players;
@@ -11,7 +13,7 @@ use rapier3d_immersed::Fluid;
 use rapier3d_immersed::motion::path::{
     HorizontalShape, MotionPath, SynthesisParams, Synthesizer, TrajectoryDatabase,
 };
-use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, PhaseDiagram, Regime};
+use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, Regime};
 use rapier3d_immersed::rapier3d::na::Vector3;
 use std::collections::HashSet;
 
@@ -43,63 +45,6 @@ fn end_of(path: &MotionPath, seconds: f64) -> Vec<Vector3<f64>> {
     let part = &all[all.len() - 1 - count..];
     let drift = (part[count] - part[0]) / count as f64;
     (0..count).map(|i| part[i] - drift * i as f64).collect()
-}
-
-/// At the (Re, I*) that the thesis prints for its three bodies falls end in its patterns. Its coin lies
-/// 14 % above the measured boundary between flutter and chaos, within the 20 % by which discs scatter
-/// about it, so that flutter is only a neighbour there.
-#[test]
-fn the_worked_bodies() {
-    let diagram = PhaseDiagram::default();
-    for case in PhaseDiagram::THESIS_CASES {
-        let regime = diagram.regime(case.reynolds, case.i_star);
-        let near = diagram.neighbours(case.reynolds, case.i_star, 0.2);
-        if case.regime == Regime::PeriodicFlutter {
-            assert!(near.contains(&case.regime));
-        } else {
-            assert_eq!(regime, case.regime);
-        }
-        let fall = leaf(SynthesisParams::of_case(&case));
-        let fall = fall.path_through(&[case.regime], 1).unwrap();
-        assert_eq!(fall.sequence(), [case.regime]);
-    }
-}
-
-/// Both are offered for the same body: the thesis's pattern by its named preset, and by default what the
-/// measured curves say of the numbers computed for it. For none of the three bodies are they the same.
-#[test]
-fn printed_and_computed_numbers() {
-    let body = |fluid: Fluid, [length, chord, thickness]: [f64; 3], density| {
-        let numbers =
-            DimensionlessNumbers::new(Outline::Round, chord, thickness, density, &fluid, 9.81);
-        (numbers.unwrap(), length)
-    };
-    let bodies = [
-        body(Fluid::WATER, [0.02, 0.02, 0.0015], 2700.0),
-        body(Fluid::AIR, [0.08, 0.02, 0.0001], 800.0),
-        body(Fluid::AIR, [0.073, 0.042, 0.0003], 400.0),
-    ];
-    let found = [
-        Regime::TransitionalChaotic,
-        Regime::PeriodicTumbling,
-        Regime::PeriodicTumbling,
-    ];
-    for (((numbers, length), case), computed) in
-        bodies.iter().zip(PhaseDiagram::THESIS_CASES).zip(found)
-    {
-        let main = |params| {
-            let database = TrajectoryDatabase::shipped();
-            Synthesizer::new(numbers, *length, database, params)
-                .unwrap()
-                .main()
-        };
-        assert_eq!(main(SynthesisParams::of_case(&case)), case.regime);
-        assert_eq!(main(SynthesisParams::default()), computed);
-    }
-    // The coin's own numbers are the printed ones to 1 %: there it is the boundary that decides.
-    let (coin, printed) = (&bodies[0].0, PhaseDiagram::THESIS_CASES[0]);
-    assert!((coin.reynolds_u0 / printed.reynolds - 1.0).abs() < 0.01);
-    assert!((coin.i_star / printed.i_star - 1.0).abs() < 0.01);
 }
 
 /// (3.11): with a main regime of level three there are seven motion classes; the chain makes them all,
@@ -151,16 +96,17 @@ fn projections() {
     assert!(HorizontalShape::of(&end_of(&path, 1.0)).extent < 1e-5);
 }
 
-/// The mean descent is U within 2 %: over every fall of the chain (it takes h/U), over every stay in a
-/// regime within it, and by least squares, for every main regime and 200 seeds.
+/// The mean descent is U = √((ρ_s/ρ_f − 1) g b) (3.3): over every fall of the chain (it takes h/U), over
+/// every stay in a regime within it, and by least squares, for every main regime and 200 seeds.
 ///
-/// At turning points the height is that of a steady descent to rounding: what is left is the
-/// interpolation between keyframes, of which a chaotic glide of a tenth of the regular size has few, so
-/// that they are closer here. Between them a glide hangs below the line through its ends by A_y/(2Ω) of
+/// At turning points the height is that of a steady descent to rounding: what is left, less than a
+/// thousandth, is the interpolation between keyframes, of which a chaotic glide of a tenth of the regular
+/// size has few, so that they are closer here. Between them a glide hangs below the line through its ends by A_y/(2Ω) of
 /// a regular one, on average: below .45 chords. Where that sets in, at worst in the middle of a fall, it
 /// bends the slope by 1.5 times that over the height: .9 % of 3 m.
 #[test]
 fn mean_descent() {
+    let descent = ((400.0 / 1.184 - 1.0) * 9.81 * 0.0003f64).sqrt();
     for main in Regime::ALL {
         let synthesizer = leaf(SynthesisParams {
             interval: 1.0 / 960.0,
@@ -171,7 +117,7 @@ fn mean_descent() {
             let path = synthesizer.path(seed);
             let mean = |from: f32, to: f32| {
                 let fallen = path.at(from).position.y - path.at(to).position.y;
-                f64::from(fallen) / f64::from(to - from) / synthesizer.descent()
+                f64::from(fallen) / f64::from(to - from) / descent
             };
             let whole = mean(0.0, path.duration());
             assert!((whole - 1.0).abs() < 1e-5, "{main} {whole}");
@@ -181,14 +127,14 @@ fn mean_descent() {
                 worst = worst.max((mean(stay[0], stay[1]) - 1.0).abs());
                 stays += 1;
             }
-            bend = bend.max((slope(&path) / synthesizer.descent() - 1.0).abs());
+            bend = bend.max((slope(&path) / descent - 1.0).abs());
         }
         println!(
             "{main}: {stays} stays, mean descent within {:.3} % of U; slope by least squares {:.2} %",
             worst * 100.0,
             bend * 100.0
         );
-        assert!(worst < 0.02 && bend < 0.02, "{main} {worst} {bend}");
+        assert!(worst < 1e-3 && bend < 0.0095, "{main} {worst} {bend}");
     }
 }
 
@@ -205,59 +151,40 @@ fn slope(path: &MotionPath) -> f64 {
     -up / down / f64::from(path.interval())
 }
 
-/// No jump above 1 % of the body's smaller extent or 2° where segments are spliced, in 60 falls through
-/// all regimes: differences of successive steps. They contain the true acceleration too, which shrinks
-/// with the step; a jump would not. At 1/240 s, to compare, they are printed.
+/// Where segments are spliced neither place nor velocity nor attitude jumps, in 60 falls through all
+/// regimes. Between successive steps of a path without such jumps the largest change of the velocity times
+/// the step is of second order in the step, and the largest turn of first order: with a quarter of the step a
+/// sixteenth and a quarter. A jump of the velocity would leave a quarter of the former, one of the place or
+/// the attitude all of it.
 #[test]
 fn splices_are_continuous() {
-    let largest = |rate: f64, falls: u64| {
+    let largest = |rate: f64| {
         let synthesizer = leaf(SynthesisParams {
             interval: 1.0 / rate,
             ..up_to(Regime::PeriodicSpiral, 3.0)
         });
         let (mut farthest, mut widest) = (0.0f32, 0.0f32);
-        for seed in 0..falls {
+        for seed in 0..60 {
             let path = synthesizer.path(seed);
             for keys in path.keys().windows(3) {
                 let [a, b, c] = [&keys[0], &keys[1], &keys[2]];
                 let jump = (c.position - b.position * 2.0 + a.position).length();
-                let step = b.attitude * a.attitude.inverse();
-                let next = c.attitude * b.attitude.inverse();
+                let turn = b.attitude.angle_between(a.attitude);
                 farthest = farthest.max(jump);
-                widest = widest.max(step.angle_between(next).to_degrees());
+                widest = widest.max(turn);
             }
         }
-        let share = farthest / 0.042 * 100.0;
-        println!("at {rate} Hz: {share:.4} % of 4.2 cm, {widest:.3}°");
-        (share, widest)
+        println!(
+            "at {rate} Hz: {:.4} mm, {:.3}°",
+            farthest * 1e3,
+            widest.to_degrees()
+        );
+        [farthest, widest]
     };
-    largest(240.0, 60);
-    let (share, widest) = largest(3840.0, 60);
-    assert!(share < 1.0 && widest < 2.0, "{share} {widest}");
-}
-
-/// Strong wind suppresses tumbling (thesis Fig. 3.17): its share of the time at 0, 3 and 5 m/s.
-#[test]
-fn wind_suppresses_tumbling() {
-    let shares = [0.0, 3.0, 5.0].map(|wind| {
-        let synthesizer = leaf(SynthesisParams {
-            wind,
-            ..up_to(Regime::TransitionalHelix, 2.0)
-        });
-        let (mut tumbling, mut all) = (0, 0);
-        for seed in 0..300 {
-            let path = synthesizer.path(seed);
-            for i in 0..100 {
-                let regime = path.regime_at(path.duration() * (i as f32 / 100.0));
-                tumbling += usize::from(regime == Regime::PeriodicTumbling);
-                all += 1;
-            }
-        }
-        tumbling as f64 / all as f64
-    });
-    println!("tumbling at 0, 3, 5 m/s: {shares:.4?}");
-    assert!(shares[0] > 0.15, "{shares:?}");
-    assert!(shares[1] < 0.1 * shares[0] && shares[2] < 0.01 * shares[0]);
+    let [coarse, fine] = [240.0, 960.0].map(largest);
+    // The next order takes a tenth off at the coarse step, at which the body turns by up to 18°.
+    assert!(coarse[0] > 13.0 * fine[0], "{coarse:?} {fine:?}");
+    assert!(coarse[1] > 3.8 * fine[1], "{coarse:?} {fine:?}");
 }
 
 /// The same seed gives the same fall, bit by bit, in another synthesizer too.

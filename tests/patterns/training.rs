@@ -1,6 +1,8 @@
 //! Training: what its labels depend on, and that both classifiers are more than chance.
 
 use crate::support::LEAF;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 use rapier3d_immersed::ThesisLaw;
 use rapier3d_immersed::motion::{Classifier, Pattern};
 use rapier3d_immersed::training::{Axis, Clusters, Experiment, Grid, Sample, Subspaces, Sweep};
@@ -45,29 +47,51 @@ fn the_time_step_does_not_make_the_labels() {
     assert!(by_step < 216 / 4);
 }
 
-/// The thesis's card: steady descent where drag is strong and lift weak, flutter elsewhere, and the two
-/// classifications agree beyond chance.
+/// The thesis's card, 729 times as in its Fig. 5.8: steady descent where drag is strong and lift weak,
+/// flutter elsewhere.
+///
+/// The thesis tells patterns by (d, e); the direct classifier by rotation, which (d, e) do not show. They
+/// have something in common if they agree more often than when its labels are dealt out among the falls at
+/// random, as often each: more often than in all of 1999 deals, as one in 2000 would by chance. How well
+/// they agree (poorly: κ of Cohen is 0.16) is not tested: nothing says how well they should.
 #[test]
 fn the_card_under_the_thesis_law() {
     let card = Experiment::thesis_card(ThesisLaw::new([1.0; 3])).unwrap();
-    let sweep = sweep(&card.for_training(), 6);
+    let sweep = sweep(&card.for_training(), 9);
     let samples: Vec<Sample> = sweep.samples().iter().flatten().copied().collect();
     let clusters = Clusters::find(&samples, 0.04, 1).unwrap();
     let agreement = clusters.agreement(&samples);
-    // What independent labels with the same frequencies would agree by.
-    let table = clusters.confusion(&samples);
-    let total = samples.len() as f64;
-    let chance: f64 = (0..4)
-        .map(|i| {
-            let row: usize = table[i].iter().sum();
-            let column: usize = table.iter().map(|row| row[i]).sum();
-            row as f64 * column as f64 / (total * total)
-        })
-        .sum();
-    println!("agreement {agreement:.2}, by chance {chance:.2}: {table:?}");
-    // Cohen's kappa more than two standard errors (√(¼/216)/(1 − chance) ≈ 0.05) above that of chance. It is
-    // 0.2 give or take those: every tenth label is chaotic and changes with rounding.
-    assert!((agreement - chance) / (1.0 - chance) > 0.1);
+    let mut dealt = samples.clone();
+    let mut random = Pcg64Mcg::seed_from_u64(1);
+    let (deals, mut sum, mut highest) = (1999, 0.0, 0.0f64);
+    for _ in 0..deals {
+        for i in (1..dealt.len()).rev() {
+            let j = random.random_range(0..=i);
+            let regime = dealt[i].regime;
+            dealt[i].regime = std::mem::replace(&mut dealt[j].regime, regime);
+        }
+        let by_chance = clusters.agreement(&dealt);
+        sum += by_chance;
+        highest = highest.max(by_chance);
+    }
+    let chance = sum / f64::from(deals);
+    let kappa = (agreement - chance) / (1.0 - chance);
+    println!("agreement {agreement:.3}, by chance {chance:.3}, at most {highest:.3}; κ {kappa:.2}");
+    assert!(agreement > highest, "{agreement} {highest}");
+    // Thesis Fig. 5.7: d is 1.25 cm of steady descent, 5.69 of the zigzag, 13.7 of what is between it and
+    // autorotation (which one fall in 729 shows here). Mann and Whitney's test on the ranks.
+    for (near, far) in [
+        (Pattern::SteadyDescent, Pattern::Zigzag),
+        (Pattern::Zigzag, Pattern::AutorotationZigzag),
+    ] {
+        let of = |pattern| samples.iter().filter(move |s| s.pattern() == pattern);
+        let (n, m) = (of(near).count() as f64, of(far).count() as f64);
+        let below = |s: &Sample| of(near).filter(|t| t.distance < s.distance).count();
+        let pairs = of(far).map(below).sum::<usize>() as f64;
+        let z = (pairs - 0.5 * n * m) / (n * m * (n + m + 1.0) / 12.0).sqrt();
+        println!("{near} {n}, {far} {m}: {z:.1} standard errors");
+        assert!(n > 20.0 && m > 20.0 && z > 3.3, "{near} {far}: {z}");
+    }
     let subspaces = Subspaces::new(sweep.grid().clone(), sweep.patterns().unwrap()).unwrap();
     assert_eq!(
         subspaces.pattern_at(&[3.0, 0.1, 0.1]),
@@ -78,8 +102,10 @@ fn the_card_under_the_thesis_law() {
     assert!(fractions[Pattern::Zigzag.index()] > 0.5, "{fractions:?}");
 }
 
-/// Any parameter can be swept: density and release angle of the leaf under its own law. The heavier it
-/// is (the larger I*), the more it tumbles (Field et al. 1997).
+/// Any parameter can be swept: density and release angle of the leaf under its own law. The heavier it is,
+/// the larger I* = πρ_s t/(64 ρ_f d), and the more it tumbles. Of paper circles .02 tumbled at I* = .033 and
+/// .92 at .079 (Howison et al. 2020): hardly any does at .018, and most do at .16 and beyond. Three of twelve
+/// releases may differ: three standard deviations of a binomial count of 12 with those shares.
 #[test]
 fn heavier_leaves_tumble_more() {
     let axis = |low, high, count| Axis { low, high, count };
@@ -101,7 +127,11 @@ fn heavier_leaves_tumble_more() {
         .map(|row| row.iter().filter(|p| **p == Pattern::Autorotation).count())
         .collect();
     println!("tumbling of 12 releases by density: {tumbling:?}");
-    assert!(tumbling[3] > tumbling[0], "{tumbling:?}");
+    assert!(tumbling[0] <= 3, "{tumbling:?}");
+    assert!(
+        tumbling[1..].iter().all(|count| *count >= 9),
+        "{tumbling:?}"
+    );
 }
 
 /// A brick of granite falls steadily whatever its coefficients (thesis § 5.5.3).

@@ -97,4 +97,47 @@ mod tests {
             assert!(classes.iter().all(|c| c.windows(2).all(|p| p[0] < p[1])));
         }
     }
+
+    /// With a share s the odds of tumbling and of chaos against any other pattern are s times what they
+    /// were, whatever came before; those among the others, and of the two against each other, stay.
+    #[test]
+    fn calming_multiplies_odds() {
+        let graph = MotionGraph::free_fall();
+        let share = 0.3;
+        let calm = calmed(&graph, share).unwrap();
+        assert_eq!(calm.check(), Ok(()));
+        let wild = |state: usize| state == 2 || state == 3;
+        let mut compared = 0;
+        for from in 0..7 {
+            let [before, after] = [&graph, &calm].map(|graph| {
+                let row = |to| match from {
+                    6 => graph.start(to),
+                    _ => graph.probability(from, to),
+                };
+                std::array::from_fn::<f64, 6, _>(row)
+            });
+            for a in 0..6 {
+                for b in 0..6 {
+                    if before[a] == 0.0 || before[b] == 0.0 {
+                        assert_eq!(before[a] == 0.0, after[a] == 0.0);
+                        continue;
+                    }
+                    let factor = match (wild(a), wild(b)) {
+                        (true, false) => share,
+                        (false, true) => 1.0 / share,
+                        _ => 1.0,
+                    };
+                    let odds = after[a] / after[b] / (before[a] / before[b]);
+                    assert!((odds / factor - 1.0).abs() < 1e-12, "{from} {a} {b}");
+                    compared += 1;
+                }
+            }
+        }
+        // All pairs of what can follow: 36, 25, 16, 9, 4 and 1, and 36 of the start.
+        assert_eq!(compared, 127);
+        // Where nothing else can follow, there is nothing to calm.
+        let tumbling = MotionGraph::always(3, 6).unwrap();
+        let still = calmed(&tumbling, 0.0).unwrap();
+        assert_eq!(still.probability(3, 3), 1.0);
+    }
 }

@@ -11,7 +11,8 @@ pub(super) struct Drifts {
     blend: f64,
 }
 
-/// Drift of a steady descent over that of other regimes (thesis § 3.3.5: deviations differ by pattern).
+/// Drift of a steady descent over that of other regimes. Thesis § 3.3.5 says that deviations differ by
+/// pattern, without numbers; this one is ours.
 const STEADY_DRIFT: f64 = 0.1;
 
 impl Drifts {

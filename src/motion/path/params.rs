@@ -42,8 +42,10 @@ pub struct SynthesisParams {
     pub variety: f64,
     /// Mean wind, m/s: tumbling and chaotic motion become rarer in it. Default 0.
     pub wind: f64,
-    /// Wind, in U, at which they are e times rarer; their share falls as exp(−(wind/(this·U))²). Default
-    /// 1.5: the leaf of thesis Fig. 3.17 no longer tumbles at 3 m/s.
+    /// Wind, in U, at which they are e times as unlikely; their probabilities fall as
+    /// exp(−(wind/(this·U))²). Default 1.5. Form and number are ours, chosen so that the leaf of thesis
+    /// Fig. 3.17, which says no more than that, no longer tumbles at 3 m/s: what is tested is that falls
+    /// do as they say, not that leaves do.
     pub calming_wind: f64,
     /// Time between keyframes at most, s. Default 1/120.
     pub interval: f64,
