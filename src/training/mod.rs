@@ -3,7 +3,8 @@
 //!
 //! An [`Experiment`] drops a body; a [`Sweep`] drops it at every node of a [`Grid`] of parameters and is
 //! refined where neighbours disagree; [`Subspaces`] answer which pattern a point belongs to.
-//! [`Clusters`] are the thesis's own classification, beside the direct
+//! [`FallStatistics`] say what a fall amounts to, and [`BodyInWorld`] is one body in a
+//! rapier world. [`Clusters`] are the thesis's own classification, beside the direct
 //! [`Classifier`](crate::motion::Classifier). A [`Planner`] makes series of coefficients of them, which a
 //! body in rapier replays ([`Immersion::play`](crate::Immersion::play)):
 //!
@@ -55,10 +56,12 @@
 pub mod cluster;
 pub mod energy;
 pub mod experiment;
+pub mod fall_statistics;
 pub mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod file;
 pub mod grid;
+pub mod in_world;
 pub mod plan;
 pub mod planner;
 pub mod subspace;
@@ -67,7 +70,9 @@ pub mod sweep;
 pub use cluster::Clusters;
 pub use energy::{ControlBox, EnergyObjective};
 pub use experiment::{Experiment, Release, thin_ellipsoid};
+pub use fall_statistics::FallStatistics;
 pub use grid::{Axis, Grid};
+pub use in_world::{BodyInWorld, BodyState};
 pub use plan::{DwellReport, Plan, PlannerParams};
 pub use planner::Planner;
 pub use subspace::Subspaces;
