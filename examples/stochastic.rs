@@ -22,10 +22,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 use support::cli::{self, Lengths};
-use support::fall::from_rapier;
+
 use support::picture::{Line, Panel, panels, time_color};
 use support::specimen::{ShapeName, Specimen, TiltAxis};
-use support::{Quat, Vec3, airplane};
+use support::{Quat, Vec3, airplane, from_rapier};
 
 /// The stochastic method's paper and ellipsoid, with and without turbulence.
 #[derive(Parser, Debug)]

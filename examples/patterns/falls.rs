@@ -1,7 +1,7 @@
 //! Falls in pictures: thesis Figs. 5.5, 5.6, 5.13, 5.14, 5.15 and 5.16.
 
 use crate::Context;
-use crate::support::draw::{Item, Panel, Point, color, isometric};
+use crate::draw::{Item, Panel, Point, color, isometric};
 use plotters::style::RGBColor;
 use rapier3d_immersed::coupling::FollowParams;
 use rapier3d_immersed::flow::FlowSample;
