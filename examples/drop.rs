@@ -8,15 +8,14 @@
 mod support;
 
 use clap::Parser;
-use rapier3d_immersed::FreeBody;
-use rapier3d_immersed::{DryMass, Fluid, ImmersedBody};
+use rapier3d_immersed::training::{BodyState, FallStatistics};
+use rapier3d_immersed::{DryMass, Fluid, FreeBody, ImmersedBody};
 use serde_json::json;
 use std::path::PathBuf;
 use support::cli::{self, FluidArgs, Lengths, bad_value};
-use support::fall::{Fall, FallOptions, IntegratorName, Release};
+use support::fall::{Fall, FallOptions, IntegratorName, shaken};
 use support::law::{LawName, law};
 use support::specimen::{ShapeName, Specimen, TiltAxis};
-use support::statistics::Statistics;
 use support::{Vec3, picture};
 
 /// One body in free fall through a fluid at rest; statistics over the second half of the run.
@@ -125,13 +124,14 @@ fn main() {
     check(&body, &dry, &fluid);
 
     let tilt_axis = options.tilt_axis.unwrap_or(TiltAxis::usual(shape));
-    let release = Release {
+    let release = BodyState {
         orientation: specimen.released_at(options.release_angle.to_radians(), tilt_axis),
         velocity: options.velocity,
         spin: options.spin,
+        ..BodyState::default()
     };
     let release = match options.seed {
-        Some(seed) => release.shaken(seed),
+        Some(seed) => shaken(release, seed),
         None => release,
     };
     let fall_options = FallOptions {
@@ -152,7 +152,7 @@ fn main() {
     }
     if let Some(path) = &options.svg {
         let chord = specimen.length;
-        let picture = picture::fall(&fall.samples, chord);
+        let picture = picture::fall(&fall.trajectory, chord);
         cli::write(
             path,
             picture.unwrap_or_else(|error| cli::cannot_write(path, error)),
@@ -169,7 +169,7 @@ fn check(body: &ImmersedBody, dry: &DryMass, fluid: &Fluid) {
 }
 
 fn report(options: &Options, specimen: &Specimen, fluid: &Fluid, dry: &DryMass, fall: &Fall) {
-    let statistics = Statistics::of(&fall.samples);
+    let statistics = FallStatistics::of(&fall.trajectory);
     let density = dry.mass / specimen.volume;
     let viscosity = f64::from(fluid.kinematic_viscosity());
     let u0 = specimen.u0(density, fluid, options.gravity);

@@ -8,24 +8,27 @@
 //! * `paper.svg`: an elliptic piece of paper from two release angles, as Fig. 4.3,
 //! * `ellipsoid.svg`: a rubber ellipsoid in water every 50 ms, with its vortical loads and turbulence,
 //!   without turbulence, and with Kirchhoff's equations alone, as Fig. 4.5,
-//! * `stochastic.json`: what each run did, and the cost per step of the thesis's Table 4.2 re-measured.
+//! * `stochastic.json`: what each run did, and the cost per step of the thesis's Table 4.2, all six rows, re-measured.
 
 mod support;
 
 use clap::Parser;
-use rapier3d_immersed::rapier3d::na::{Matrix3, Quaternion};
-use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::geometry::Surface;
+use rapier3d_immersed::rapier3d::na::Matrix3;
+use rapier3d_immersed::rapier3d::parry::shape::Ball;
+use rapier3d_immersed::training::{BodyInWorld, BodyState};
 use rapier3d_immersed::turbulence::{LangevinMode, Turbulence, TurbulenceTable, TurbulentLayer};
-use rapier3d_immersed::{Fluid, ImmersedBody, Immersion, RapierSets, StochasticLaw, ViscousLaw};
+use rapier3d_immersed::{
+    DryMass, Fluid, HydroProperties, ImmersedBody, RapierSets, StochasticLaw, ViscousLaw,
+};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 use support::cli::{self, Lengths};
-use support::fall::from_rapier;
 use support::picture::{Line, Panel, panels, time_color};
 use support::specimen::{ShapeName, Specimen, TiltAxis};
-use support::{Quat, Vec3, airplane};
+use support::{Quat, Vec3, airplane, from_rapier};
 
 /// The stochastic method's paper and ellipsoid, with and without turbulence.
 #[derive(Parser, Debug)]
@@ -69,9 +72,13 @@ impl Physics {
 }
 
 /// A body to be dropped.
+#[derive(Clone)]
 struct Case {
-    specimen: Specimen,
-    density: f64,
+    hydro: HydroProperties,
+    dry: DryMass,
+    /// U0 of (4.1), m/s, and longest extent, m: the scales of the turbulence.
+    u0: f64,
+    length: f64,
     fluid: Fluid,
     dt: f64,
     seconds: f64,
@@ -84,64 +91,60 @@ struct Flight {
 }
 
 impl Case {
-    fn world(
-        &self,
-        orientation: Quat,
-        physics: Physics,
-        seed: u64,
-    ) -> (PhysicsWorld, Immersion, RigidBodyHandle) {
-        let dry = self.specimen.dry_mass(self.density);
-        let mut world = PhysicsWorld::new();
-        world.integration_parameters.dt = self.dt as f32;
-        let q = orientation.coords.map(|x| x as f32);
-        let body = RigidBodyBuilder::dynamic()
-            .rotation(Rotation::from_xyzw(q.x, q.y, q.z, q.w).to_scaled_axis())
-            .additional_mass_properties(dry.to_mass_properties())
-            .can_sleep(false);
-        let handle = world.insert_body(body);
+    /// A specimen of the given density, kg/m³, every 5 ms over 1.5 s.
+    fn new(specimen: &Specimen, density: f64, fluid: Fluid) -> Self {
+        Self {
+            hydro: specimen.hydro.clone(),
+            dry: specimen.dry_mass(density),
+            u0: specimen.u0(density, &fluid, GRAVITY),
+            length: specimen.span,
+            fluid,
+            dt: 0.005,
+            seconds: 1.5,
+        }
+    }
+
+    fn world(&self, orientation: Quat, physics: Physics, seed: u64) -> BodyInWorld {
         let law = match physics {
             Physics::Kirchhoff => ViscousLaw::Inviscid,
             _ => ViscousLaw::Stochastic(StochasticLaw::default()),
         };
-        let body = ImmersedBody::new(self.specimen.hydro.clone())
+        let body = ImmersedBody::new(self.hydro.clone())
             .with_law(law)
             .expect("the default coefficients are valid");
-        let mut immersion = Immersion::new(self.fluid);
-        immersion.insert(handle, body);
+        let release = BodyState {
+            orientation,
+            ..BodyState::default()
+        };
+        let mut world = BodyInWorld::new(body, &self.dry, self.fluid, &release, self.dt, GRAVITY)
+            .expect("the thesis's bodies can fly");
         let mode = match physics {
-            Physics::Kirchhoff | Physics::Viscous => return (world, immersion, handle),
+            Physics::Kirchhoff | Physics::Viscous => return world,
             Physics::Increments => LangevinMode::BodyIncrements,
             Physics::FluidSeen => LangevinMode::FluidSeen,
         };
         // The thesis's inflow: the body's mean falling speed (4.1) over its length.
-        immersion.set_turbulence(TurbulentLayer {
+        world.immersion.set_turbulence(TurbulentLayer {
             source: Turbulence::History {
                 table: Arc::new(TurbulenceTable::default_history()),
-                velocity_scale: self.u0() as f32,
-                length_scale: self.specimen.span as f32,
+                velocity_scale: self.u0 as f32,
+                length_scale: self.length as f32,
             },
             mode,
             seed,
         });
-        (world, immersion, handle)
-    }
-
-    fn u0(&self) -> f64 {
-        self.specimen.u0(self.density, &self.fluid, GRAVITY)
+        world
     }
 
     fn fly(&self, orientation: Quat, physics: Physics, seed: u64) -> Flight {
-        let (mut world, mut immersion, handle) = self.world(orientation, physics, seed);
+        let mut world = self.world(orientation, physics, seed);
         let steps = (self.seconds / self.dt).round() as usize;
         let poses = (0..=steps).map(|step| {
             if step > 0 {
-                immersion.step(&mut world);
+                world.step();
             }
-            let body = &world.bodies[handle];
-            let q = body.rotation();
-            let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
-            let attitude = Quat::new_normalize(Quaternion::from([x, y, z, w]));
-            (from_rapier(body.center_of_mass()), attitude)
+            let state = world.state();
+            (state.position, state.orientation)
         });
         Flight {
             poses: poses.collect(),
@@ -151,7 +154,11 @@ impl Case {
 
     /// Mean time of a step of one body's world and of the crate's share in it, s.
     fn cost(&self) -> (f64, f64) {
-        let (mut world, mut immersion, _) = self.world(Quat::identity(), Physics::FluidSeen, 1);
+        let BodyInWorld {
+            mut world,
+            mut immersion,
+            ..
+        } = self.world(Quat::identity(), Physics::FluidSeen, 1);
         let steps = 4000;
         let (mut whole, mut own) = (0.0, 0.0);
         for _ in 0..steps {
@@ -236,44 +243,91 @@ fn strobe(title: &'static str, semi: Vec3, flight: &Flight, seconds: f64) -> Pan
     }
 }
 
-fn paper() -> Case {
-    let size = Lengths(vec![0.08, 0.02, 0.0001]);
+fn specimen(shape: ShapeName, size: &[f64]) -> Specimen {
+    Specimen::new(shape, Some(&Lengths(size.to_vec())), None, 0.0).expect("the thesis's sizes")
+}
+
+/// Density of paper, kg/m³.
+const PAPER: f64 = 800.0;
+/// Density of rubber, kg/m³; the thesis does not say.
+const RUBBER: f64 = 1100.0;
+/// Full extents of the rubber ellipsoid, m.
+const ELLIPSOID: [f64; 3] = [0.08, 0.02, 0.04];
+
+/// The rubber ellipsoid as the fluid feels a mesh of so many triangles around it and rings of them.
+fn meshed_ellipsoid(around: u32, rings: u32) -> Case {
+    let (vertices, triangles) = Ball::new(0.5).to_trimesh(around, rings);
+    let stretch = Vec3::from(ELLIPSOID);
+    let vertices: Vec<Vec3> = vertices
+        .into_iter()
+        .map(|v| from_rapier(v).component_mul(&stretch))
+        .collect();
+    let mesh = Surface::new(&vertices, &triangles).expect("a ball's mesh is closed");
     Case {
-        specimen: Specimen::new(ShapeName::Ellipse, Some(&size), None, 0.0)
-            .expect("the thesis's paper"),
-        density: 800.0,
+        hydro: HydroProperties::from_surface(&mesh, Vec3::zeros()),
+        ..Case::new(
+            &specimen(ShapeName::Ellipsoid, &ELLIPSOID),
+            RUBBER,
+            Fluid::WATER,
+        )
+    }
+}
+
+/// The folded airplane with its own mass.
+fn folded_airplane() -> Case {
+    let kind = airplane::kind(PAPER).expect("the thesis's airplane");
+    let ratio = PAPER / f64::from(Fluid::AIR.density());
+    Case {
+        hydro: kind.body.hydro.clone(),
+        dry: kind.dry,
+        u0: ((ratio - 1.0) * GRAVITY * airplane::THICKNESS).sqrt(),
+        length: airplane::SIDE,
         fluid: Fluid::AIR,
         dt: 0.005,
         seconds: 1.5,
     }
 }
 
-fn ellipsoid() -> Case {
-    let size = Lengths(vec![0.08, 0.02, 0.04]);
-    Case {
-        specimen: Specimen::new(ShapeName::Ellipsoid, Some(&size), None, 0.0)
-            .expect("the thesis's ellipsoid"),
-        // Rubber; the thesis does not say.
-        density: 1100.0,
-        fluid: Fluid::WATER,
-        dt: 0.005,
-        seconds: 1.5,
-    }
+/// Table 4.2 of the thesis, all six rows, and the same re-measured.
+fn table_4_2(paper: &Case) -> Vec<Value> {
+    // The thesis does not say which ellipsoids: ours are that of Fig. 4.5, of as many triangles (twice
+    // those around, times the rings less one).
+    let (coarse, fine) = (meshed_ellipsoid(20, 9), meshed_ellipsoid(40, 17));
+    let airplane = folded_airplane();
+    let rows = [
+        ("ellipsoid 1", 320, 0.001, 1.59, &coarse),
+        ("ellipsoid 1", 320, 0.005, 1.63, &coarse),
+        ("ellipsoid 1", 320, 0.010, 1.65, &coarse),
+        ("ellipsoid 2", 1280, 0.005, 1.71, &fine),
+        ("piece of paper", 1024, 0.005, 1.73, paper),
+        ("paper airplane", 288, 0.005, 1.86, &airplane),
+    ];
+    let row = |(body, triangles, dt, thesis, case): (_, _, _, _, &Case)| {
+        let (whole, own) = Case { dt, ..case.clone() }.cost();
+        json!({
+            "body": body,
+            "triangles": triangles,
+            "time_step_ms": 1e3 * dt,
+            "thesis_ms": thesis,
+            "step_ms": whole * 1e3,
+            "crate_ms": own * 1e3,
+        })
+    };
+    rows.into_iter().map(row).collect()
 }
 
 fn main() {
     let options: Options = cli::parse();
     let mut report = serde_json::Map::new();
 
-    let case = paper();
+    let ellipse = specimen(ShapeName::Ellipse, &[0.08, 0.02, 0.0001]);
+    let paper = Case::new(&ellipse, PAPER, Fluid::AIR);
     let semi = Vec3::new(0.04, 0.00005, 0.01);
     let mut pictures = Vec::new();
     for angle in [75.0f64, 30.0] {
-        let release = case
-            .specimen
-            .released_at(angle.to_radians(), TiltAxis::Short);
+        let release = ellipse.released_at(angle.to_radians(), TiltAxis::Short);
         for physics in [Physics::Viscous, Physics::Increments, Physics::FluidSeen] {
-            let flight = case.fly(release, physics, options.seed);
+            let flight = paper.fly(release, physics, options.seed);
             report.insert(
                 format!("paper, {angle}°, {}", physics.name()),
                 flight.json(),
@@ -285,7 +339,8 @@ fn main() {
     let svg = panels(title, &pictures, 3, (420, 420)).expect("lines can be drawn");
     cli::write(&options.out.join("paper.svg"), svg);
 
-    let case = ellipsoid();
+    let ellipsoid = specimen(ShapeName::Ellipsoid, &ELLIPSOID);
+    let ellipsoid = Case::new(&ellipsoid, RUBBER, Fluid::WATER);
     let semi = Vec3::new(0.04, 0.01, 0.02);
     let tilt = Quat::from_axis_angle(&Vec3::z_axis(), -30f64.to_radians())
         * Quat::from_axis_angle(&Vec3::x_axis(), 10f64.to_radians());
@@ -296,7 +351,7 @@ fn main() {
         Physics::FluidSeen,
     ];
     let pictures = runs.map(|physics| {
-        let flight = case.fly(tilt, physics, options.seed);
+        let flight = ellipsoid.fly(tilt, physics, options.seed);
         report.insert(format!("ellipsoid, {}", physics.name()), flight.json());
         strobe(physics.name(), semi, &flight, 0.05)
     });
@@ -304,43 +359,7 @@ fn main() {
     let svg = panels(title, &pictures, 4, (340, 640)).expect("lines can be drawn");
     cli::write(&options.out.join("ellipsoid.svg"), svg);
 
-    let airplane = airplane::kind(800.0).expect("the thesis's airplane");
-    let mut costs = serde_json::Map::new();
-    for (name, thesis, case) in [
-        (
-            "ellipsoid, 1 ms",
-            1.59,
-            Case {
-                dt: 0.001,
-                ..ellipsoid()
-            },
-        ),
-        ("ellipsoid, 5 ms", 1.63, ellipsoid()),
-        (
-            "ellipsoid, 10 ms",
-            1.65,
-            Case {
-                dt: 0.01,
-                ..ellipsoid()
-            },
-        ),
-        ("piece of paper, 5 ms", 1.73, paper()),
-    ] {
-        let (whole, own) = case.cost();
-        costs.insert(
-            name.into(),
-            json!({ "thesis_ms": thesis, "step_ms": whole * 1e3, "crate_ms": own * 1e3 }),
-        );
-    }
-    // What a step costs depends on the shape alone through its constants.
-    let mut folded = paper();
-    folded.specimen.hydro = airplane.body.hydro.clone();
-    let (whole, own) = folded.cost();
-    costs.insert(
-        "paper airplane, 5 ms".into(),
-        json!({ "thesis_ms": 1.86, "step_ms": whole * 1e3, "crate_ms": own * 1e3 }),
-    );
-
+    let costs = table_4_2(&paper);
     let text = json!({ "runs": report, "cost": costs });
     let content = format!("{text:#}\n");
     cli::write(&options.out.join("stochastic.json"), &content);
@@ -358,13 +377,15 @@ fn main() {
         println!("{name:<55} {fall:>8.2} {drift:>8.2} {turns:>7.1}");
     }
     println!(
-        "\n{:<55} {:>8} {:>8} {:>7}",
-        "cost of a step, µs", "thesis", "whole", "ours"
+        "\n{:<16} {:>9} {:>9} {:>16} {:>8} {:>7}",
+        "Table 4.2: body", "triangles", "step, ms", "cost, µs: thesis", "whole", "ours"
     );
-    for (name, cost) in &costs {
-        let micro = |key: &str| cost[key].as_f64().unwrap_or(f64::NAN) * 1e3;
-        let (thesis, whole, own) = (micro("thesis_ms"), micro("step_ms"), micro("crate_ms"));
-        println!("{name:<55} {thesis:>8.0} {whole:>8.2} {own:>7.2}");
+    for cost in &costs {
+        let number = |key: &str| cost[key].as_f64().unwrap_or(f64::NAN);
+        let body = cost["body"].as_str().unwrap_or_default();
+        let (triangles, dt) = (number("triangles"), number("time_step_ms"));
+        let [thesis, whole, own] = ["thesis_ms", "step_ms", "crate_ms"].map(|k| 1e3 * number(k));
+        println!("{body:<16} {triangles:>9} {dt:>9} {thesis:>16.0} {whole:>8.2} {own:>7.2}");
     }
     let out = options.out.display();
     println!("wrote {out}/paper.svg, {out}/ellipsoid.svg, {out}/stochastic.json");

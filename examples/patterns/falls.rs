@@ -1,7 +1,7 @@
 //! Falls in pictures: thesis Figs. 5.5, 5.6, 5.13, 5.14, 5.15 and 5.16.
 
 use crate::Context;
-use crate::support::draw::{Item, Panel, Point, color, isometric};
+use crate::draw::{Item, Panel, Point, color, isometric};
 use plotters::style::RGBColor;
 use rapier3d_immersed::flow::FlowSample;
 use rapier3d_immersed::motion::{
@@ -88,6 +88,7 @@ pub fn four_patterns(context: &Context) -> Result<Value, Error> {
 }
 
 /// Fig. 5.5: the card that autorotates along a helix. The thesis prints a = 2.5, b = 1.5 and c = 0.01 cm;
+/// a and b are read as semi-axes here, although its Table 5.2 lists whole axes for other bodies. The thesis prints a = 2.5, b = 1.5 and c = 0.01 cm;
 /// a and b are read as semi-axes here, although its Table 5.2 lists whole axes for other bodies.
 pub fn helix(context: &Context) -> Result<Value, Error> {
     let (hydro, mass) = thin_ellipsoid([0.025, 0.015, 0.000_05], 1200.0)?;

@@ -5,6 +5,9 @@
 //! cargo run --release --features bake,serde-serialize --example patterns -- --out out
 //! ```
 
+#[path = "../support/draw.rs"]
+#[allow(dead_code, reason = "shared with other examples")]
+mod draw;
 mod falls;
 mod phase;
 #[path = "../support/mod.rs"]
@@ -12,6 +15,7 @@ mod support;
 mod training;
 
 use clap::Parser;
+use draw::Panel;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rapier3d_immersed::training::Experiment;
 use rapier3d_immersed::{Error, ThesisLaw, ViscousLaw};
@@ -19,7 +23,6 @@ use serde_json::json;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use support::draw::{self, Panel};
 use training::Trained;
 
 /// Draws the phase diagram and the figures of thesis chapter 5.

@@ -1,7 +1,7 @@
 //! The phase diagram with a body on it.
 
 use crate::Context;
-use crate::support::draw::{Item, Panel};
+use crate::draw::{Item, Panel};
 use clap::{Args, ValueEnum};
 use plotters::style::RGBColor;
 use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, PhaseDiagram, Regime};

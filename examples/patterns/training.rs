@@ -1,6 +1,6 @@
 //! Training in pictures: thesis Figs. 5.7, 5.8 and 5.10.
 
-use crate::support::draw::{Item, Panel, color, cube, depth, isometric};
+use crate::draw::{Item, Panel, color, cube, depth, isometric};
 use crate::{Context, bar};
 use rapier3d_immersed::Error;
 use rapier3d_immersed::motion::{Classifier, DimensionlessNumbers, Pattern};

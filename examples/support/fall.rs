@@ -1,15 +1,12 @@
 //! One body released in a fluid at rest: the run behind `drop`.
 
-use super::statistics::Sample;
 use super::{Quat, Vec3};
 use clap::ValueEnum;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, Normal};
-use rapier3d_immersed::rapier3d::math::{Rotation, Vector};
-use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion};
-use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
-use rapier3d_immersed::{DryMass, Error, Fluid, FreeBody, ImmersedBody};
-use rapier3d_immersed::{ForceBreakdown, Immersion};
+use rapier3d_immersed::motion::Trajectory;
+use rapier3d_immersed::training::{BodyInWorld, BodyState};
+use rapier3d_immersed::{DryMass, Error, Fluid, ForceBreakdown, FreeBody, ImmersedBody};
 use std::fmt::Write;
 
 /// Most steps of one run: what is recorded of them stays below 1 GB.
@@ -24,32 +21,19 @@ pub enum IntegratorName {
     Free,
 }
 
-/// State at the release.
-#[derive(Clone, Copy, Debug)]
-pub struct Release {
-    /// Orientation of the body's frame.
-    pub orientation: Quat,
-    /// Velocity, m/s.
-    pub velocity: Vec3,
-    /// Angular velocity, world axes, rad/s.
-    pub spin: Vec3,
-}
-
-impl Release {
-    /// The same with a random heading, a random tilt (2°) and a random spin (0.1 rad/s).
-    pub fn shaken(self, seed: u64) -> Self {
-        let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(seed);
-        let heading = random.random_range(0.0..std::f64::consts::TAU);
-        let unit = Normal::new(0.0, 1.0).expect("a standard deviation of one");
-        let mut draw = |scale: f64| Vec3::from_fn(|_, _| scale * unit.sample(&mut random));
-        let mut tilt = draw(2.0_f64.to_radians());
-        tilt.y = 0.0;
-        let turn = Quat::from_axis_angle(&Vec3::y_axis(), heading) * Quat::from_scaled_axis(tilt);
-        Self {
-            orientation: turn * self.orientation,
-            velocity: self.velocity,
-            spin: self.spin + draw(0.1),
-        }
+/// A release with a random heading, a random tilt (2°) and a random spin (0.1 rad/s) on top.
+pub fn shaken(release: BodyState, seed: u64) -> BodyState {
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(seed);
+    let heading = random.random_range(0.0..std::f64::consts::TAU);
+    let unit = Normal::new(0.0, 1.0).expect("a standard deviation of one");
+    let mut draw = |scale: f64| Vec3::from_fn(|_, _| scale * unit.sample(&mut random));
+    let mut tilt = draw(2.0_f64.to_radians());
+    tilt.y = 0.0;
+    let turn = Quat::from_axis_angle(&Vec3::y_axis(), heading) * Quat::from_scaled_axis(tilt);
+    BodyState {
+        orientation: turn * release.orientation,
+        spin: release.spin + draw(0.1),
+        ..release
     }
 }
 
@@ -90,7 +74,9 @@ impl FallOptions {
 #[derive(Clone, Debug)]
 pub struct Fall {
     /// Every step, the release included; ends early at a state that is not finite.
-    pub samples: Vec<Sample>,
+    pub states: Vec<BodyState>,
+    /// The same as a trajectory.
+    pub trajectory: Trajectory,
     /// Force components of the same steps, if asked for and known.
     pub forces: Vec<Option<ForceBreakdown>>,
     /// Whether the run stayed finite and the body never had more kinetic energy than it began with
@@ -100,28 +86,22 @@ pub struct Fall {
 
 enum Simulator {
     Free(Box<FreeBody>),
-    Rapier(Box<World>),
-}
-
-struct World {
-    world: PhysicsWorld,
-    immersion: Immersion,
-    body: RigidBodyHandle,
+    Rapier(Box<BodyInWorld>),
 }
 
 impl Fall {
     /// Runs.
     ///
     /// # Errors
-    /// Those of [`FreeBody::new`].
+    /// Those of [`BodyInWorld::new`].
     pub fn run(
         body: &ImmersedBody,
         dry: &DryMass,
         fluid: &Fluid,
-        release: &Release,
+        release: &BodyState,
         options: &FallOptions,
     ) -> Result<Self, Error> {
-        let plate_axes = UnitQuaternion::from_rotation_matrix(&body.hydro.planform.axes);
+        let FallOptions { gravity, dt, .. } = *options;
         let mut free = FreeBody::new(body, dry, fluid)?;
         free.set_orientation(release.orientation);
         free.set_velocity(release.velocity, release.spin);
@@ -129,31 +109,37 @@ impl Fall {
         let mut simulator = match options.integrator {
             IntegratorName::Free => Simulator::Free(Box::new(free)),
             IntegratorName::Rapier => {
-                Simulator::Rapier(Box::new(World::new(body, dry, fluid, release, options)))
+                let world = BodyInWorld::new(body.clone(), dry, *fluid, release, dt, gravity)?;
+                Simulator::Rapier(Box::new(world))
             }
         };
 
-        let weight = (dry.mass - f64::from(fluid.density()) * body.hydro.volume) * options.gravity;
-        let slack = dry.mass * (options.gravity * options.dt).powi(2);
+        let weight = (dry.mass - f64::from(fluid.density()) * body.hydro.volume) * gravity;
+        let slack = dry.mass * (gravity * dt).powi(2);
         let mut fall = Self {
-            samples: Vec::new(),
+            states: Vec::new(),
+            trajectory: Trajectory {
+                interval: dt,
+                moments: Vec::new(),
+            },
             forces: Vec::new(),
             stable: true,
         };
-        let steps = (options.seconds / options.dt).round() as usize;
+        let steps = (options.seconds / dt).round() as usize;
         for step in 0..=steps {
             if step > 0 {
                 simulator.step(options);
             }
-            let sample = simulator.sample(step as f64 * options.dt, &plate_axes);
-            if !sample.is_finite() {
+            let state = simulator.state();
+            if !state.is_finite() {
                 fall.stable = false;
                 break;
             }
-            let given = initial_energy - weight * sample.position.y;
-            let margin = 0.05 * (initial_energy + (weight * sample.position.y).abs()) + slack;
-            fall.stable &= kinetic_energy(dry, &sample) <= given + margin;
-            fall.samples.push(sample);
+            let given = initial_energy - weight * state.position.y;
+            let margin = 0.05 * (initial_energy + (weight * state.position.y).abs()) + slack;
+            fall.stable &= kinetic_energy(dry, &state) <= given + margin;
+            fall.trajectory.moments.push(state.moment(&body.hydro));
+            fall.states.push(state);
             if options.forces {
                 fall.forces.push(simulator.forces(options));
             }
@@ -180,10 +166,11 @@ impl Fall {
             }
         }
         text.push('\n');
-        for (sample, forces) in self.samples.iter().zip(&self.forces) {
-            let (x, q) = (sample.position, sample.orientation.coords);
-            let (v, w) = (sample.velocity, sample.spin);
-            let mut row = vec![sample.time, x.x, x.y, x.z, q.x, q.y, q.z, q.w];
+        for (step, (state, forces)) in self.states.iter().zip(&self.forces).enumerate() {
+            let (x, q) = (state.position, state.orientation.coords);
+            let (v, w) = (state.velocity, state.spin);
+            let time = step as f64 * self.trajectory.interval;
+            let mut row = vec![time, x.x, x.y, x.z, q.x, q.y, q.z, q.w];
             row.extend([v.x, v.y, v.z, w.x, w.y, w.z]);
             let mut fields: Vec<String> = row.iter().map(f64::to_string).collect();
             match forces {
@@ -214,92 +201,30 @@ impl Fall {
 }
 
 /// Of the body alone, J.
-fn kinetic_energy(dry: &DryMass, sample: &Sample) -> f64 {
-    let spin = sample.orientation.inverse() * sample.spin;
-    0.5 * (dry.mass * sample.velocity.norm_squared() + spin.dot(&(dry.inertia * spin)))
-}
-
-impl World {
-    fn new(
-        body: &ImmersedBody,
-        dry: &DryMass,
-        fluid: &Fluid,
-        release: &Release,
-        options: &FallOptions,
-    ) -> Self {
-        let mut world = PhysicsWorld::new();
-        world.gravity = Vector::new(0.0, -options.gravity as f32, 0.0);
-        world.integration_parameters.dt = options.dt as f32;
-        let q = release.orientation.coords.map(|x| x as f32);
-        let rapier_body = RigidBodyBuilder::dynamic()
-            .rotation(Rotation::from_xyzw(q.x, q.y, q.z, q.w).to_scaled_axis())
-            .linvel(to_rapier(&release.velocity))
-            .angvel(to_rapier(&release.spin))
-            .additional_mass_properties(dry.to_mass_properties())
-            .can_sleep(false);
-        let handle = world.insert_body(rapier_body);
-        let mut immersion = Immersion::new(*fluid);
-        immersion.insert(handle, body.clone());
-        Self {
-            world,
-            immersion,
-            body: handle,
-        }
-    }
+fn kinetic_energy(dry: &DryMass, state: &BodyState) -> f64 {
+    let spin = state.orientation.inverse() * state.spin;
+    0.5 * (dry.mass * state.velocity.norm_squared() + spin.dot(&(dry.inertia * spin)))
 }
 
 impl Simulator {
     fn step(&mut self, options: &FallOptions) {
         match self {
             Self::Free(body) => body.step(options.dt, Vec3::new(0.0, -options.gravity, 0.0)),
-            Self::Rapier(world) => world.immersion.step(&mut world.world),
+            Self::Rapier(world) => world.step(),
         }
     }
 
-    fn sample(&self, time: f64, plate_axes: &Quat) -> Sample {
-        let (position, orientation, velocity, spin) = match self {
-            Self::Free(body) => (
-                body.position,
-                body.orientation(),
-                body.linear_velocity(),
-                body.angular_velocity(),
-            ),
-            Self::Rapier(world) => {
-                let body = &world.world.bodies[world.body];
-                let q = body.rotation();
-                let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
-                (
-                    from_rapier(body.center_of_mass()),
-                    UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)),
-                    from_rapier(body.linvel()),
-                    from_rapier(body.angvel()),
-                )
-            }
-        };
-        Sample {
-            time,
-            position,
-            orientation,
-            velocity,
-            spin,
-            normal: orientation * (plate_axes * Vec3::z()),
+    fn state(&self) -> BodyState {
+        match self {
+            Self::Free(body) => BodyState::of(body),
+            Self::Rapier(world) => world.state(),
         }
     }
 
     fn forces(&self, options: &FallOptions) -> Option<ForceBreakdown> {
         match self {
             Self::Free(body) => Some(body.forces(Vec3::new(0.0, -options.gravity, 0.0))),
-            Self::Rapier(world) => world.immersion.forces(&world.world.bodies, world.body),
+            Self::Rapier(world) => world.forces(),
         }
     }
-}
-
-/// From rapier's single precision.
-pub fn from_rapier(v: Vector) -> Vec3 {
-    Vec3::new(v.x.into(), v.y.into(), v.z.into())
-}
-
-/// To rapier's single precision.
-pub fn to_rapier(v: &Vec3) -> Vector {
-    Vector::new(v.x as f32, v.y as f32, v.z as f32)
 }

@@ -1,11 +1,11 @@
-//! What the examples share: command line, meshes, scenes, statistics, pictures, animation files.
+//! What the examples share: command line, meshes, scenes, pictures, animation files.
 //!
-//! Every example includes this module with `mod support;` and uses its own part of it.
+//! Every example includes this module with `mod support;` and uses its own part of it;
+//! `draw.rs` and `previous.rs`, which need nothing else of it, are included by their path.
 #![allow(dead_code, reason = "each example uses its own part")]
 
 pub mod airplane;
 pub mod cli;
-pub mod draw;
 pub mod fall;
 pub mod gallery;
 pub mod glb;
@@ -13,16 +13,25 @@ pub mod law;
 pub mod leaf;
 pub mod mesh;
 pub mod picture;
-pub mod previous;
 pub mod recording;
 pub mod scene;
-pub mod seed;
 pub mod sheet;
 pub mod specimen;
-pub mod statistics;
 pub mod summary;
+
+use rapier3d_immersed::rapier3d::math::Vector;
 
 /// World axes: y is up, as in rapier's default gravity and in glTF.
 pub type Vec3 = rapier3d_immersed::rapier3d::na::Vector3<f64>;
 /// An orientation in f64.
 pub type Quat = rapier3d_immersed::rapier3d::na::UnitQuaternion<f64>;
+
+/// From rapier's single precision.
+pub fn from_rapier(v: Vector) -> Vec3 {
+    Vec3::new(v.x.into(), v.y.into(), v.z.into())
+}
+
+/// To rapier's single precision.
+pub fn to_rapier(v: &Vec3) -> Vector {
+    Vector::new(v.x as f32, v.y as f32, v.z as f32)
+}

@@ -1,7 +1,6 @@
 //! Trajectories as SVG: from the side and from above.
 
 use super::Vec3;
-use super::statistics::Sample;
 use plotters::backend::SVGBackend;
 use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
@@ -11,6 +10,7 @@ use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
 use plotters::element::{Circle, Text};
 use plotters::series::LineSeries;
 use plotters::style::{Color, IntoFont, RGBColor, ShapeStyle, TextStyle, WHITE};
+use rapier3d_immersed::motion::{Moment, Trajectory};
 
 /// What can go wrong when drawing.
 pub type Failure = String;
@@ -187,25 +187,26 @@ pub fn panels(
 ///
 /// # Errors
 /// What the drawing library says.
-pub fn fall(samples: &[Sample], chord: f64) -> Result<String, Failure> {
+pub fn fall(fall: &Trajectory, chord: f64) -> Result<String, Failure> {
     const SIZE: (u32, u32) = (470, 820);
-    let Some((first, last)) = samples.first().zip(samples.last()) else {
+    let moments = &fall.moments;
+    let Some((first, last)) = moments.first().zip(moments.last()) else {
         return Err("there is nothing to draw".into());
     };
-    let along = drift_direction(samples);
+    let along = drift_direction(moments);
     let side = |p: &Vec3| (p.dot(&along), p.y);
     let above = |p: &Vec3| (p.x, p.z);
     let mut sides = Panel {
         title: "from the side",
         axes: ["along the drift, m", "height, m"],
-        lines: by_time(samples, side),
+        lines: by_time(moments, side),
         dots: Vec::new(),
         window: None,
     };
     let aboves = Panel {
         title: "from above",
         axes: ["x, m", "z, m"],
-        lines: by_time(samples, above),
+        lines: by_time(moments, above),
         dots: vec![
             (above(&first.position), time_color(0.0)),
             (above(&last.position), time_color(1.0)),
@@ -217,32 +218,32 @@ pub fn fall(samples: &[Sample], chord: f64) -> Result<String, Failure> {
     let stroke_pixels = chord * f64::from(SIZE.0) / (range.1 - range.0);
     let enlarged = (16.0 / stroke_pixels).max(1.0).ceil();
     let toward = along.cross(&Vec3::y());
-    let every = (samples.len() / 110).max(1);
-    for (i, sample) in samples.iter().enumerate().step_by(every) {
-        let stroke = toward.cross(&sample.normal) * (0.5 * chord * enlarged);
-        let ends = [sample.position - stroke, sample.position + stroke];
+    let every = (moments.len() / 110).max(1);
+    for (i, moment) in moments.iter().enumerate().step_by(every) {
+        let stroke = toward.cross(&moment.normal) * (0.5 * chord * enlarged);
+        let ends = [moment.position - stroke, moment.position + stroke];
         sides.lines.push(Line {
             points: ends.iter().map(side).collect(),
-            color: time_color(i as f64 / samples.len() as f64),
+            color: time_color(i as f64 / moments.len() as f64),
             width: 2,
         });
     }
     let title = match enlarged as u32 {
-        1 => format!("{:.3} s of free fall", last.time),
+        1 => format!("{:.3} s of free fall", fall.duration()),
         n => format!(
             "{:.3} s of free fall; the strokes show the chord {n} times its size",
-            last.time
+            fall.duration()
         ),
     };
     panels(&title, &[sides, aboves], 2, SIZE)
 }
 
 /// Polylines of one colour each, 48 of them over the whole time.
-fn by_time(samples: &[Sample], project: impl Fn(&Vec3) -> (f64, f64)) -> Vec<Line> {
+fn by_time(moments: &[Moment], project: impl Fn(&Vec3) -> (f64, f64)) -> Vec<Line> {
     const PIECES: usize = 48;
     const POINTS: usize = 1500;
-    let thin = (samples.len() / POINTS).max(1);
-    let points: Vec<(f64, f64)> = samples
+    let thin = (moments.len() / POINTS).max(1);
+    let points: Vec<(f64, f64)> = moments
         .iter()
         .step_by(thin)
         .map(|s| project(&s.position))
@@ -259,12 +260,12 @@ fn by_time(samples: &[Sample], project: impl Fn(&Vec3) -> (f64, f64)) -> Vec<Lin
 }
 
 /// The horizontal direction in which the positions scatter most.
-fn drift_direction(samples: &[Sample]) -> Vec3 {
-    let count = samples.len() as f64;
-    let mean = samples.iter().map(|s| s.position).sum::<Vec3>() / count;
+fn drift_direction(moments: &[Moment]) -> Vec3 {
+    let count = moments.len() as f64;
+    let mean = moments.iter().map(|s| s.position).sum::<Vec3>() / count;
     let (mut xx, mut xz, mut zz) = (0.0, 0.0, 0.0);
-    for sample in samples {
-        let d = sample.position - mean;
+    for moment in moments {
+        let d = moment.position - mean;
         xx += d.x * d.x;
         xz += d.x * d.z;
         zz += d.z * d.z;

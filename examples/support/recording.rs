@@ -1,8 +1,7 @@
 //! Runs a scene and keeps what pictures, animations and summaries need.
 
-use super::fall::from_rapier;
 use super::scene::{Scene, pose_parts};
-use super::{Quat, Vec3, cli};
+use super::{Quat, Vec3, cli, from_rapier};
 use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyHandle};
 use std::collections::HashMap;
 use std::time::Instant;

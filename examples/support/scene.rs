@@ -1,7 +1,6 @@
 //! A scene: a rapier world with obstacles and many pieces that fall, and how each of them looks.
 
-use super::fall::{from_rapier, to_rapier};
-use super::{Quat, Vec3};
+use super::{Quat, Vec3, from_rapier, to_rapier};
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::geometry::{ColliderBuilder, SharedShape};
 use rapier3d_immersed::rapier3d::math::{Pose, Rotation};

@@ -1,4 +1,7 @@
 //! Figs. 3.4–3.6, 3.1 and 3.8, 3.15–3.17.
+//!
+//! A **prescribed** fall goes through the regimes that are named, whatever body it is; a **sampled** one
+//! through those that the motion graph draws. Titles say which.
 
 use super::Body;
 use super::draw::{self, Item, Panel, Point};
@@ -169,7 +172,8 @@ pub fn database(out: &Path, database: &TrajectoryDatabase) -> Result<(), Box<dyn
     draw::write(&path, title, &panels, 3, (420, 420))
 }
 
-/// Figs. 3.1 and 3.8: the six regimes from the side and from above.
+/// Figs. 3.1 and 3.8: the six regimes from the side and from above, each prescribed, and what release angle
+/// and variety change.
 pub fn patterns(
     out: &Path,
     leaf: &Body,
@@ -187,7 +191,7 @@ pub fn patterns(
     for regime in Regime::ALL {
         let path = synthesizer.path_through(&[regime], seed)?;
         let mut panel = Panel::bare(format!(
-            "{} {regime}, {} m",
+            "{} {regime}, prescribed, {} m",
             regime.abbreviation(),
             leaf.height
         ));
@@ -242,7 +246,7 @@ pub fn patterns(
         let path = leaf
             .synthesizer(params, database)?
             .path_through(&[Regime::TransitionalChaotic], seed)?;
-        let mut panel = Panel::bare(format!("chaotic, released at {degrees}°"));
+        let mut panel = Panel::bare(format!("chaotic, prescribed, released at {degrees}°"));
         panel.items = trace(&path, 1.5 * leaf.numbers.length, 0.035);
         sides.push(panel);
     }
@@ -255,18 +259,18 @@ pub fn patterns(
         let path = leaf
             .synthesizer(params, database)?
             .path_through(&[Regime::PeriodicFlutter], seed)?;
-        let mut panel = Panel::bare(format!("flutter, variety {variety}"));
+        let mut panel = Panel::bare(format!("flutter, prescribed, variety {variety}"));
         panel.items = trace(&path, 1.5 * leaf.numbers.length, 0.035);
         sides.push(panel);
     }
-    let title =
-        "A leaf in each regime (thesis Figs. 3.1 and 3.8), released at angles, and with variety";
+    let title = "A leaf in each regime as prescribed (thesis Figs. 3.1 and 3.8), released at angles, and with variety";
     let path = out.join("synthesis_patterns.svg");
     draw::write(&path, title, &sides, 6, (270, 330))
 }
 
-/// Figs. 3.15–3.17: the thesis's bodies with the numbers that it prints, with those that are computed
-/// for them, and the leaf in wind.
+/// Figs. 3.15–3.17: the thesis's bodies through the regimes that it shows of them, prescribed; the same
+/// bodies sampled at the numbers that are computed for them; and the leaf in wind, sampled with the main
+/// regime that the thesis prints.
 pub fn bodies(
     out: &Path,
     bodies: &[Body; 3],
@@ -282,7 +286,7 @@ pub fn bodies(
             Regime::TransitionalHelix,
         ],
     ];
-    let (mut printed, mut computed) = (Vec::new(), Vec::new());
+    let (mut prescribed, mut sampled) = (Vec::new(), Vec::new());
     for ((body, case), regimes) in bodies.iter().zip(PhaseDiagram::THESIS_CASES).zip(shown) {
         // Deviations are proportional to L/a; the slender paper would land four meters away.
         let deviation = Deviation {
@@ -298,41 +302,31 @@ pub fn bodies(
             ..SynthesisParams::of_case(&case)
         };
         let own = body.synthesizer(own, database)?;
-        let numbers = [
-            (case.reynolds, case.i_star),
-            (body.numbers.reynolds_u0, body.numbers.i_star),
-        ];
-        let [as_printed, as_computed] = numbers.map(|(re, i)| format!("Re {re:.0}, I* {i:.2e}"));
         let thesis = body.synthesizer(thesis, database)?;
         // A chord of less than a fiftieth of the height would hardly be seen.
         let enlarged = (0.02 * body.height / body.numbers.length).max(1.0).round();
-        for (row, title, path) in [
-            (
-                &mut printed,
-                format!("{}: printed {as_printed}", body.name),
-                thesis.path_through(regimes, seed)?,
-            ),
-            (
-                &mut computed,
-                format!("{}: computed {as_computed}", body.name),
-                own.path_through(&[own.main()], seed)?,
-            ),
-        ] {
-            let height = match enlarged > 1.0 {
-                true => format!("y, m (chords × {enlarged})"),
-                false => "y, m".to_string(),
-            };
-            let mut panel = Panel::new(title, "x, m", &height).equal();
-            panel.items = trace(
-                &path,
-                enlarged * body.numbers.length,
-                path.duration() / 40.0,
-            );
-            row.push(panel);
+        let names: Vec<&str> = regimes.iter().map(|r| r.abbreviation()).collect();
+        let (re, i_star) = (body.numbers.reynolds_u0, body.numbers.i_star);
+        let height = match enlarged > 1.0 {
+            true => format!("y, m (chords × {enlarged})"),
+            false => "y, m".to_string(),
+        };
+        let title = format!("{}: prescribed {}", body.name, names.join(", "));
+        let mut panel = Panel::new(title, "x, m", &height).equal();
+        let path = thesis.path_through(regimes, seed)?;
+        let chord = enlarged * body.numbers.length;
+        panel.items = trace(&path, chord, path.duration() / 40.0);
+        prescribed.push(panel);
+        let title = format!("{}: eight sampled, Re {re:.0}, I* {i_star:.2e}", body.name);
+        let mut panel = Panel::new(title, "x, m", "y, m").equal();
+        for fall in 0..8 {
+            let trace = trace(&own.path(seed + fall), body.numbers.length, Real::INFINITY);
+            panel.items.extend(trace);
         }
+        sampled.push(panel);
     }
-    printed.extend(computed);
-    let mut panels = printed;
+    let mut panels = prescribed;
+    panels.extend(sampled);
     let leaf = &bodies[2];
     for speed in [0.0, 3.0, 5.0] {
         let params = SynthesisParams {
@@ -340,7 +334,7 @@ pub fn bodies(
             ..SynthesisParams::of_case(&PhaseDiagram::THESIS_CASES[2])
         };
         let synthesizer = leaf.synthesizer(params, database)?;
-        let title = format!("eight leaves in wind of {speed} m/s from the right (Fig. 3.17)");
+        let title = format!("eight leaves sampled, wind of {speed} m/s from the right (Fig. 3.17)");
         let mut panel = Panel::new(title, "x, m", "y, m");
         panel.window = Some([
             [(-1.5, 1.5), (-6.5, 0.5), (-11.5, 0.5)][(speed / 2.0) as usize],
@@ -376,7 +370,7 @@ pub fn bodies(
         }
         panels.push(panel);
     }
-    let title = "The thesis's worked bodies (Figs. 3.15–3.17)";
+    let title = "The thesis's bodies (Figs. 3.15–3.17), prescribed and sampled";
     let path = out.join("synthesis_bodies.svg");
     draw::write_with_legend(&path, title, &legend(), &panels, 3, (430, 470))
 }

@@ -4,6 +4,17 @@
 //! ```text
 //! cargo run --release --features bake --example synthesis -- --out out
 //! ```
+//!
+//! * `synthesis_database.svg`: solutions of the model (3.4), and the segments cut from them,
+//! * `synthesis_patterns.svg`: a leaf in each regime, **prescribed**,
+//! * `synthesis_bodies.svg`: the thesis's coin, paper and leaf through the regimes that the thesis shows of
+//!   them, **prescribed**, then as **sampled** from the motion graph at the numbers that are computed for
+//!   them, and leaves in wind, sampled,
+//! * `synthesis_tree.svg`: leaves from a tree, sampled with the main regime that the thesis prints for its
+//!   leaf, with collisions.
+//!
+//! Printed: Re and I* of the three bodies as the thesis prints them and as they are computed, the regime
+//! that the phase diagram has for either, and what became of the tree's leaves.
 
 #[path = "../support/draw.rs"]
 #[allow(dead_code, reason = "shared with other examples")]

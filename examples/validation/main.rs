@@ -11,14 +11,15 @@
 //! is shown as not met; it does not change the exit code, which is 0 once everything has been
 //! computed and written, 2 for a bad flag, 1 if a file cannot be written.
 
-mod suite;
+#[path = "../../tests/validation/published/mod.rs"]
+mod published;
 #[path = "../support/mod.rs"]
 mod support;
 
 use clap::Parser;
+use published::{Effort, SectionName, report};
 use std::path::PathBuf;
 use std::process::exit;
-use suite::{Effort, SectionName, report};
 
 /// Compares this crate with measurements and exact results.
 #[derive(Parser)]

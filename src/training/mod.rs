@@ -3,7 +3,8 @@
 //!
 //! An [`Experiment`] drops a body; a [`Sweep`] drops it at every node of a [`Grid`] of parameters and is
 //! refined where neighbours disagree; [`Subspaces`] answer which pattern a point belongs to.
-//! [`Clusters`] are the thesis's own classification, beside the direct
+//! [`FallStatistics`] say what a fall amounts to, and [`BodyInWorld`] is one body in a
+//! rapier world. [`Clusters`] are the thesis's own classification, beside the direct
 //! [`Classifier`](crate::motion::Classifier). A [`Planner`] makes series of coefficients of them, which a
 //! body in rapier replays ([`Immersion::replay`](crate::Immersion::replay)):
 //!
@@ -55,10 +56,12 @@
 mod cluster;
 mod energy;
 mod experiment;
+mod fall_statistics;
 pub mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod file;
 mod grid;
+mod in_world;
 mod plan;
 mod planner;
 mod sketch_control;
@@ -68,7 +71,9 @@ mod sweep;
 pub use cluster::Clusters;
 pub use energy::{ControlBox, EnergyObjective};
 pub use experiment::{Experiment, Release, thin_ellipsoid};
+pub use fall_statistics::FallStatistics;
 pub use grid::{Axis, Grid};
+pub use in_world::{BodyInWorld, BodyState};
 pub use plan::{DwellReport, Plan, PlannerParams};
 pub use planner::Planner;
 pub use sketch_control::{FollowParams, Followed};

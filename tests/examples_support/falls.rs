@@ -2,10 +2,11 @@
 //! energy from one that does not.
 
 use crate::support::cli::Lengths;
-use crate::support::fall::{Fall, FallOptions, IntegratorName, Release};
+use crate::support::fall::{Fall, FallOptions, IntegratorName};
 use crate::support::law::{LawName, law};
+use crate::support::picture;
 use crate::support::specimen::{ShapeName, Specimen, TiltAxis};
-use crate::support::{Vec3, picture};
+use rapier3d_immersed::training::BodyState;
 use rapier3d_immersed::{Fluid, ImmersedBody, ViscousLaw};
 
 fn fall(
@@ -20,10 +21,9 @@ fn fall(
     let body = ImmersedBody::new(specimen.hydro.clone())
         .with_law(law)
         .unwrap();
-    let release = Release {
+    let release = BodyState {
         orientation: specimen.released_at(0.4, TiltAxis::Long),
-        velocity: Vec3::zeros(),
-        spin: Vec3::zeros(),
+        ..BodyState::default()
     };
     Fall::run(&body, &specimen.dry_mass(density), fluid, &release, options).unwrap()
 }
@@ -55,12 +55,19 @@ fn rapier_and_the_free_body_fall_alike() {
         )
     };
     let (free, rapier) = (fall(IntegratorName::Free), fall(IntegratorName::Rapier));
-    assert_eq!(free.samples.len(), 481);
-    for (a, b) in free.samples.iter().zip(&rapier.samples) {
+    assert_eq!(free.states.len(), 481);
+    for (a, b) in free.states.iter().zip(&rapier.states) {
         // Velocities are the same up to single precision; positions by 0.125·Δv·dt besides. Both
         // add up over the flutter's swings.
         assert!((a.velocity - b.velocity).norm() < 2e-3, "{a:?}\n{b:?}");
         assert!((a.position - b.position).norm() < 2e-3, "{a:?}\n{b:?}");
+    }
+    let moments = free
+        .trajectory
+        .moments
+        .iter()
+        .zip(&rapier.trajectory.moments);
+    for (a, b) in moments {
         assert!((a.normal - b.normal).norm() < 2e-2, "{a:?}\n{b:?}");
     }
     assert!(free.stable && rapier.stable);
@@ -73,7 +80,7 @@ fn rapier_and_the_free_body_fall_alike() {
     assert_eq!(lines.len(), 1 + 481);
     let columns = 14 + 8 * 6;
     assert!(lines.iter().all(|line| line.split(',').count() == columns));
-    let picture = picture::fall(&rapier.samples, 0.01134).unwrap();
+    let picture = picture::fall(&rapier.trajectory, 0.01134).unwrap();
     assert!(picture.starts_with("<svg") && picture.trim_end().ends_with("</svg>"));
 }
 
@@ -96,8 +103,8 @@ fn a_light_sphere_rises_as_its_added_mass_lets_it() {
     );
     // (ρ − ρ_s) g/(ρ_s + ρ/2), the exact acceleration in an ideal fluid.
     let exact = (997.0 - 100.0) * 9.81 / (100.0 + 997.0 / 2.0);
-    let last = fall.samples.last().unwrap();
-    assert!((last.velocity.y / (exact * last.time) - 1.0).abs() < 2e-3);
+    let last = fall.states.last().unwrap();
+    assert!((last.velocity.y / (exact * options.seconds) - 1.0).abs() < 2e-3);
     assert!(fall.stable, "rising is no gain out of nothing");
 }
 

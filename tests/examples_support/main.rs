@@ -1,7 +1,5 @@
 //! What the examples share is tested here: examples themselves have no tests.
 
-#[path = "../../examples/validation/suite/mod.rs"]
-mod suite;
 #[path = "../../examples/support/mod.rs"]
 mod support;
 
@@ -11,5 +9,3 @@ mod falls;
 mod leaves;
 mod meshes;
 mod specimens;
-mod statistics;
-mod validation;

@@ -8,10 +8,10 @@ mod impact;
 mod kirchhoff;
 mod lifecycle;
 mod plain;
+mod published;
+mod published_bars;
 mod readout;
 mod robustness;
-#[path = "../../examples/support/seed.rs"]
-mod seed;
 mod shapes;
 mod sphere;
 mod stream;

@@ -1,12 +1,13 @@
 //! Any outline flies by its own planform, moments and chord: nothing here is fitted to a shape, and
 //! mass that is off the center acts because the pressure stays with the shape.
 
-use crate::seed::{NUT, box_mass, samara};
+use crate::published::samara::{NUT, box_mass, samara};
 use rapier3d_immersed::geometry::Surface;
+use rapier3d_immersed::rapier3d::math::{Real, Vector};
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
-use rapier3d_immersed::rapier3d::prelude::*;
-use rapier3d_immersed::{DryMass, Fluid, FreeBody, HydroProperties, ImmersedBody, Immersion};
+use rapier3d_immersed::training::{BodyInWorld, BodyState};
+use rapier3d_immersed::{DryMass, Fluid, FreeBody, HydroProperties, ImmersedBody};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 const GRAVITY: Vector3<f64> = Vector3::new(0.0, -9.81, 0.0);
@@ -143,27 +144,22 @@ fn every_outline_falls_between_edgewise_and_broadside() {
                 let turn = Vector3::new(tilt, 0.2, 0.3 * tilt);
                 let mut free = FreeBody::new(&body, &mass, &fluid).unwrap();
                 free.set_orientation(UnitQuaternion::from_scaled_axis(turn));
-                let mut world = PhysicsWorld::new();
-                world.integration_parameters.dt = 1.0 / 240.0;
-                let handle = world.insert_body(
-                    RigidBodyBuilder::dynamic()
-                        .rotation(Vector::new(turn.x as f32, turn.y as f32, turn.z as f32))
-                        .additional_mass_properties(mass.to_mass_properties()),
-                );
-                let mut immersion = Immersion::new(fluid);
-                immersion.insert(handle, body.clone());
+                let (release, dt) = (BodyState::of(&free), 1.0 / 240.0);
+                let mut rapier =
+                    BodyInWorld::new(body.clone(), &mass, fluid, &release, dt, 9.81).unwrap();
                 let (steps, half) = (2880, 1440);
                 let mut before = [0.0; 2];
                 for step in 0..steps {
                     if step == half {
-                        let rapier = world.bodies[handle].center_of_mass().y;
-                        before = [free.position.y, f64::from(rapier)];
+                        before = [free.position.y, rapier.state().position.y];
                     }
-                    free.step(1.0 / 240.0, GRAVITY);
-                    immersion.step(&mut world);
+                    free.step(dt, GRAVITY);
+                    rapier.step();
                 }
-                let rapier = f64::from(world.bodies[handle].center_of_mass().y);
-                let fallen = [free.position.y - before[0], rapier - before[1]];
+                let fallen = [
+                    free.position.y - before[0],
+                    rapier.state().position.y - before[1],
+                ];
                 for descent in fallen.map(|y| -y / (0.5 * f64::from(steps) / 240.0)) {
                     assert!(
                         descent > broadside / 3.0 && descent < edgewise,

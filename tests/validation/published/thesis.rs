@@ -1,9 +1,9 @@
 //! Figures 5.4 and 5.13 of H. Xie's thesis.
 
+use super::draw::{self, Item, Panel, Point};
 use super::report::Row;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel, Point};
-use crate::support::{Vec3, previous};
+use super::{Vec3, previous};
 use plotters::style::RGBColor;
 use rapier3d_immersed::AddedMass;
 use rapier3d_immersed::flow::FlowSample;

@@ -1,9 +1,9 @@
 //! The quasi-steady plate in two dimensions (thesis (2.14)–(2.20) in the thin-plate limit of Andersen,
 //! Pesavento & Wang 2005) against golden values: it verifies code and is no model of real plates.
 
+use super::draw::{self, Item, Panel, Point};
 use super::report::Row;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel, Point};
 use plotters::style::RGBColor;
 use rapier3d_immersed::reduced::FallingPlate;
 use rapier3d_immersed::reduced::Tolerances;

@@ -1,10 +1,10 @@
 //! Paper circles and hexagons in air: Howison, Hughes & Iida (2020).
 
+use super::draw::{self, Item, Panel};
 use super::falls::{RUNNERS, Reports, STEPS, median, reports};
 use super::report::Row;
 use super::runner::Runner;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel};
 use plotters::style::RGBColor;
 use rapier3d_immersed::training::fidelity::{Cut, Fidelity, PaperDrop, PaperFall, TumblingShare};
 

@@ -1,15 +1,13 @@
 //! A maple seed: a body that is neither flat nor even, and spins.
 
+use super::draw::{self, Item, Panel, Point};
 use super::report::Row;
+use super::samara::samara;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel, Point};
-use crate::support::fall::from_rapier;
-use crate::support::seed::samara;
-use crate::support::{Quat, Vec3};
+use super::{Quat, Vec3};
 use plotters::style::RGBColor;
-use rapier3d_immersed::rapier3d::math::Rotation;
-use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder};
-use rapier3d_immersed::{Error, Fluid, FreeBody, Immersion};
+use rapier3d_immersed::training::{BodyInWorld, BodyState};
+use rapier3d_immersed::{Error, Fluid, FreeBody};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const GRAVITY: Vec3 = Vec3::new(0.0, -9.81, 0.0);
@@ -45,23 +43,15 @@ fn alone(index: usize, dt: f64) -> Result<Vec<(f64, f64)>, Error> {
 
 fn in_rapier(index: usize, dt: f64) -> Result<Vec<(f64, f64)>, Error> {
     let (body, mass) = samara()?;
-    let mut world = PhysicsWorld::new();
-    world.integration_parameters.dt = dt as f32;
-    let q = release(index).coords.map(|x| x as f32);
-    let seed = world.insert_body(
-        RigidBodyBuilder::dynamic()
-            .rotation(Rotation::from_xyzw(q.x, q.y, q.z, q.w).to_scaled_axis())
-            .additional_mass_properties(mass.to_mass_properties()),
-    );
-    let mut immersion = Immersion::new(Fluid::AIR);
-    immersion.insert(seed, body);
+    let release = BodyState {
+        orientation: release(index),
+        ..BodyState::default()
+    };
+    let mut seed = BodyInWorld::new(body, &mass, Fluid::AIR, &release, dt, -GRAVITY.y)?;
     let step = |_| {
-        immersion.step(&mut world);
-        let body = &world.bodies[seed];
-        (
-            from_rapier(body.center_of_mass()).y,
-            from_rapier(body.angvel()).y,
-        )
+        seed.step();
+        let state = seed.state();
+        (state.position.y, state.spin.y)
     };
     Ok((0..(SECONDS / dt).round() as usize).map(step).collect())
 }

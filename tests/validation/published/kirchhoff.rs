@@ -1,67 +1,51 @@
 //! A body in an ideal fluid, left alone: energy, impulse and moment of impulse stay, and a pendulum of
 //! potential flow swings with a period that is known.
 
+use super::draw::{self, Item, Panel, Point};
 use super::report::Row;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel, Point};
-use crate::support::fall::{from_rapier, to_rapier};
-use crate::support::{Quat, Vec3};
+use super::{Quat, Vec3};
 use plotters::style::RGBColor;
 use rapier3d_immersed::AddedMass;
-use rapier3d_immersed::rapier3d::math::{Rotation, Vector};
-use rapier3d_immersed::rapier3d::na::{Matrix3, Quaternion};
+use rapier3d_immersed::rapier3d::na::Matrix3;
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
-use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
+use rapier3d_immersed::training::{BodyInWorld, BodyState};
 use rapier3d_immersed::{
-    DryMass, Error, Fluid, FreeBody, HydroProperties, ImmersedBody, Immersion, ViscousLaw,
+    DryMass, Error, Fluid, FreeBody, HydroProperties, ImmersedBody, ViscousLaw,
 };
 
 const SOURCE: &str = "Lamb, chapter VI: conserved exactly";
 /// Period of the swing from φ₀ = 1 with M₁ = 1.2, M₂ = 3, J = ½, P = 2: 4 K(sin φ₀)/ω₀.
 const PERIOD: f64 = 4.174_876_46;
 
-/// A rapier world without gravity that holds one immersed body, and a twin in f64 that evaluates the
-/// invariants at rapier's state.
+/// A body in a rapier world without gravity, and a twin in f64 that evaluates the invariants at rapier's
+/// state.
 struct World {
-    world: PhysicsWorld,
-    immersion: Immersion,
-    body: RigidBodyHandle,
+    rapier: BodyInWorld,
     twin: FreeBody,
 }
 
 impl World {
-    fn new(free: &FreeBody, body: &ImmersedBody, mass: &DryMass, fluid: Fluid, dt: f64) -> Self {
-        let mut world = PhysicsWorld::new();
-        world.gravity = Vector::ZERO;
-        world.integration_parameters.dt = dt as f32;
-        let q = free.orientation().coords.map(|x| x as f32);
-        let builder = RigidBodyBuilder::dynamic()
-            .rotation(Rotation::from_xyzw(q.x, q.y, q.z, q.w).to_scaled_axis())
-            .linvel(to_rapier(&free.linear_velocity()))
-            .angvel(to_rapier(&free.angular_velocity()))
-            .additional_mass_properties(mass.to_mass_properties())
-            .can_sleep(false);
-        let handle = world.insert_body(builder);
-        let mut immersion = Immersion::new(fluid);
-        immersion.insert(handle, body.clone());
-        Self {
-            world,
-            immersion,
-            body: handle,
+    fn new(
+        free: &FreeBody,
+        body: &ImmersedBody,
+        mass: &DryMass,
+        fluid: Fluid,
+        dt: f64,
+    ) -> Result<Self, Error> {
+        let release = BodyState::of(free);
+        Ok(Self {
+            rapier: BodyInWorld::new(body.clone(), mass, fluid, &release, dt, 0.0)?,
             twin: free.clone(),
-        }
+        })
     }
 
     fn step(&mut self) -> &FreeBody {
-        self.immersion.step(&mut self.world);
-        let body = &self.world.bodies[self.body];
-        let q = body.rotation();
-        let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
-        self.twin.position = from_rapier(body.center_of_mass());
-        self.twin
-            .set_orientation(Quat::new_normalize(Quaternion::new(w, x, y, z)));
-        self.twin
-            .set_velocity(from_rapier(body.linvel()), from_rapier(body.angvel()));
+        self.rapier.step();
+        let state = self.rapier.state();
+        self.twin.position = state.position;
+        self.twin.set_orientation(state.orientation);
+        self.twin.set_velocity(state.velocity, state.spin);
         &self.twin
     }
 }
@@ -159,7 +143,7 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
         });
         push("stand-alone, 1/240 s, default", worst, None);
         curves.push((spin, RGBColor(30, 90, 200), curve));
-        let mut world = World::new(&released, &body, &mass, Fluid::WATER, dt);
+        let mut world = World::new(&released, &body, &mass, Fluid::WATER, dt)?;
         let (worst, curve) = history(seconds, dt, || start.deviation(world.step()));
         push("rapier, 1/240 s", worst, Some(1e-4));
         curves.push((spin, RGBColor(211, 47, 47), curve));
@@ -199,7 +183,7 @@ fn pendulum(rows: &mut Vec<Row>) -> Result<(), Failure> {
     rows.push(Row::number(case, pair, "s", Some(1e-6), source));
     for steps in [240.0, 60.0] {
         let dt = 1.0 / steps;
-        let mut world = World::new(&released, &body, &mass, fluid, dt);
+        let mut world = World::new(&released, &body, &mass, fluid, dt)?;
         let rapier = period(dt, || world.step().normal());
         let case = format!("period of the swing, rapier, 1/{steps} s");
         let bar = (steps == 240.0).then_some(1e-4);

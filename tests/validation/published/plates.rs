@@ -1,10 +1,10 @@
 //! Plates in water: Andersen, Pesavento & Wang (2005).
 
+use super::draw::{self, Item, Panel};
 use super::falls::{RUNNERS, Reports, STEPS, median, reports};
 use super::report::Row;
 use super::runner::Runner;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel};
 use plotters::style::RGBColor;
 use rapier3d_immersed::ViscousLaw;
 use rapier3d_immersed::motion::Regime;

@@ -1,14 +1,14 @@
 //! Drag of a sphere, and of a disc that moves along its axis, over the Reynolds number.
 
+use super::draw::{self, Item, Panel, Point};
 use super::report::Row;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel, Point};
 use plotters::style::RGBColor;
-use rapier3d_immersed::rapier3d::math::{Real, Vector};
+use rapier3d_immersed::rapier3d::math::Real;
 use rapier3d_immersed::rapier3d::na::{Matrix3, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
-use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder};
-use rapier3d_immersed::{DryMass, Error, Fluid, FreeBody, HydroProperties, Immersion};
+use rapier3d_immersed::training::{BodyInWorld, BodyState};
+use rapier3d_immersed::{DryMass, Error, Fluid, FreeBody, HydroProperties};
 use std::f64::consts::PI;
 
 const RADIUS: f64 = 0.1;
@@ -93,18 +93,13 @@ impl Body {
         for _ in 0..4000 {
             free.step(relaxation / 200.0, Vector3::new(0.0, -GRAVITY, 0.0));
         }
-        let mut world = PhysicsWorld::new();
-        world.gravity = Vector::Y * -GRAVITY as Real;
-        world.integration_parameters.dt = 1.0 / 240.0;
-        let properties = self.mass(mass).to_mass_properties();
-        let body = RigidBodyBuilder::dynamic().additional_mass_properties(properties);
-        let body = world.insert_body(body);
-        let mut immersion = Immersion::new(fluid);
-        immersion.insert(body, self.hydro.clone());
+        let release = BodyState::default();
+        let (body, mass) = (self.hydro.clone(), self.mass(mass));
+        let mut rapier = BodyInWorld::new(body, &mass, fluid, &release, 1.0 / 240.0, GRAVITY)?;
         for _ in 0..((20.0 * relaxation * 240.0) as usize).clamp(240, 48_000) {
-            immersion.step(&mut world);
+            rapier.step();
         }
-        let rapier = -f64::from(world.bodies[body].linvel().y);
+        let rapier = -rapier.state().velocity.y;
         Ok([-free.linear_velocity().y / speed, rapier / speed])
     }
 }

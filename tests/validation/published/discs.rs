@@ -1,10 +1,10 @@
 //! The map of falling discs: Field, Klaus, Moore & Nori (1997).
 
+use super::draw::{self, Item, Panel, Point};
 use super::falls::{RUNNERS, Reports, median, reports};
 use super::report::Row;
 use super::runner::Runner;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel, Point};
 use plotters::style::RGBColor;
 use rapier3d_immersed::motion::{PhaseDiagram, Regime};
 use rapier3d_immersed::training::fidelity::{Disc, DiscFall, Fidelity};

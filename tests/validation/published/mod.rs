@@ -1,20 +1,34 @@
-//! The cases, section by section.
+//! How well this crate's bodies fall: measurements and exact results, section by section.
+//!
+//! The tests assert every bar at [`Effort::Quick`]; the example `validation` includes this module, computes
+//! it at full effort and prints it as a table.
 
 mod added_mass;
 mod discs;
 mod drag;
+#[path = "../../../examples/support/draw.rs"]
+#[allow(dead_code, reason = "shared with examples")]
+mod draw;
 mod energy;
 mod falling_plate;
 mod falls;
 mod kirchhoff;
 mod papers;
 mod plates;
+#[path = "../../../examples/support/previous.rs"]
+mod previous;
 pub mod report;
 pub mod runner;
+pub mod samara;
 mod seed;
 mod thesis;
 
+use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
 use report::{Row, Section};
+
+/// World axes: y is up.
+type Vec3 = Vector3<f64>;
+type Quat = UnitQuaternion<f64>;
 
 /// How much to compute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

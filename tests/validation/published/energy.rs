@@ -1,9 +1,9 @@
 //! In a fluid at rest without gravity the energy of body and fluid never grows: random bodies, fluids and
 //! time steps under the default law.
 
+use super::Vec3;
 use super::report::Row;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::Vec3;
 use rand::{RngExt, SeedableRng};
 use rapier3d_immersed::rapier3d::na::Matrix3;
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;

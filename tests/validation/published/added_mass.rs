@@ -1,9 +1,9 @@
 //! Added mass against closed forms and tables: the proxy ellipsoid's and, with the feature `bake`, the
 //! boundary elements'.
 
+use super::draw::{self, Item, Panel};
 use super::report::Row;
 use super::{Computed, Effort, Failure, Progress};
-use crate::support::draw::{self, Item, Panel};
 use plotters::style::RGBColor;
 use rapier3d_immersed::AddedMass;
 use rapier3d_immersed::geometry::Ellipsoid;
