@@ -62,7 +62,7 @@ fn main() -> Result<(), Error> {
     )?;
     world
         .immersion
-        .play(world.handle, &plan.series, OnContact::Restart);
+        .replay(world.handle, &plan.series, OnContact::Restart);
     let steps = (plan.series.duration() / leaf.dt).round() as usize;
     let moments: Vec<Moment> = (0..steps)
         .map(|_| {

@@ -17,19 +17,16 @@
 //! seconds (swing, glide, helix): mean distances of 1.2 to 5.4 cm, in about half a second each.
 
 use super::experiment::{Experiment, Release};
-use crate::coupling::Immersion;
+use super::in_world::{BodyInWorld, BodyState};
 use crate::dynamics::FreeBody;
 use crate::error::Error;
 use crate::hydro::viscous::ForceFactors;
-use crate::math::{to_f64, to_quaternion, to_real};
 use crate::motion::{ControlSeries, DimensionlessNumbers, Sketch};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
-use rapier3d::dynamics::RigidBodyBuilder;
 use rapier3d::geometry::ColliderBuilder;
 use rapier3d::na::Vector3;
-use rapier3d::pipeline::PhysicsWorld;
 
 /// How a sketch is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,32 +175,43 @@ impl Sketch {
                 release,
                 ..experiment.clone()
             };
-            let mut pilot = experiment.released()?;
-            pilot.position = self.points()[0].1;
-            let (cost, _) = search.best(&pilot, 0.0, &mut first.clone(), &mut random);
+            let mut trial = experiment.released()?;
+            trial.position = self.points()[0].1;
+            let (cost, _) = search.best(&trial, 0.0, &mut first.clone(), &mut random);
             if choice.as_ref().is_none_or(|(least, ..)| cost < *least) {
-                choice = Some((cost, release, pilot));
+                choice = Some((cost, release, trial));
             }
         }
-        let (_, release, mut pilot) = choice.expect("there is at least one heading");
-        let mut rapier = InRapier::new(experiment, collider, &release, self.points()[0].1);
+        let (_, release, mut trial) = choice.expect("there is at least one heading");
+        let state = BodyState {
+            position: self.points()[0].1,
+            orientation: release.orientation(&experiment.body.hydro),
+            velocity: release.velocity,
+            spin: release.spin,
+        };
+        let (body, fluid) = (experiment.body.clone(), experiment.fluid);
+        let (dt, gravity) = (experiment.dt, experiment.gravity);
+        let mut rapier = BodyInWorld::with_collider(body, collider, fluid, &state, dt, gravity)?;
+        rapier.immersion.integrator = experiment.integrator;
         let count = (self.duration() / (steps as f64 * experiment.dt)).ceil() as usize;
         let mut controls = Vec::with_capacity(count);
         let mut path = vec![self.points()[0].1];
         let mut mean = first;
         for interval in 0..count {
             let time = (interval * steps) as f64 * experiment.dt;
-            let (_, best) = search.best(&pilot, time, &mut mean, &mut random);
+            let (_, best) = search.best(&trial, time, &mut mean, &mut random);
             let control = ForceFactors::<f32>::from(ForceFactors::from(best));
             controls.push(control);
             for _ in 0..steps {
-                path.push(rapier.step(control));
+                rapier.immersion.set_control(rapier.handle, control);
+                rapier.step();
+                path.push(rapier.state().position);
             }
-            pilot.control = control.into();
+            trial.control = control.into();
             for _ in 0..steps {
-                pilot.step(experiment.dt, search.gravity);
+                trial.step(experiment.dt, search.gravity);
             }
-            rapier.correct(&mut pilot);
+            correct(&mut trial, &rapier.state());
             mean.rotate_left(1);
             let end = mean.len() - 1;
             mean[end] = mean[end.saturating_sub(1)];
@@ -238,8 +246,8 @@ struct Search<'a> {
 impl Search<'_> {
     /// Mean squared distance from the sketch over the horizon, and how far the velocity at its end is
     /// from the sketch's.
-    fn cost(&self, pilot: &FreeBody, time: f64, controls: &[[f64; 3]]) -> f64 {
-        let mut body = pilot.clone();
+    fn cost(&self, trial: &FreeBody, time: f64, controls: &[[f64; 3]]) -> f64 {
+        let mut body = trial.clone();
         let (mut cost, mut now) = (0.0, time);
         for control in controls {
             body.control = (*control).into();
@@ -264,7 +272,7 @@ impl Search<'_> {
     /// is left at them.
     fn best(
         &self,
-        pilot: &FreeBody,
+        trial: &FreeBody,
         time: f64,
         mean: &mut [[f64; 3]],
         random: &mut Pcg64Mcg,
@@ -277,7 +285,7 @@ impl Search<'_> {
         };
         let bound = |k: usize, x: f64| x.clamp(if k == 0 { 0.02 } else { low }, params.limit);
         let mut spread = vec![[0.5 * params.limit; 3]; mean.len()];
-        let mut winner = (self.cost(pilot, time, mean), mean.to_vec());
+        let mut winner = (self.cost(trial, time, mean), mean.to_vec());
         for _ in 0..params.rounds {
             let mut flown: Vec<(f64, Vec<[f64; 3]>)> = (0..params.samples)
                 .map(|_| {
@@ -290,7 +298,7 @@ impl Search<'_> {
                             })
                         })
                         .collect();
-                    (self.cost(pilot, time, &controls), controls)
+                    (self.cost(trial, time, &controls), controls)
                 })
                 .collect();
             flown.push(winner.clone());
@@ -312,61 +320,14 @@ impl Search<'_> {
     }
 }
 
-/// The body alone in a rapier world.
-struct InRapier {
-    world: PhysicsWorld,
-    immersion: Immersion,
-    handle: rapier3d::dynamics::RigidBodyHandle,
-}
-
-impl InRapier {
-    fn new(
-        experiment: &Experiment,
-        collider: ColliderBuilder,
-        release: &Release,
-        start: Vector3<f64>,
-    ) -> Self {
-        let hydro = &experiment.body.hydro;
-        let mut world = PhysicsWorld::new();
-        world.gravity = to_real(experiment.gravity_vector());
-        world.integration_parameters.dt = experiment.dt as f32;
-        let rotation = release.rotation(hydro);
-        let mut body = RigidBodyBuilder::dynamic()
-            .can_sleep(false)
-            .ccd_enabled(false)
-            .linvel(to_real(release.velocity))
-            .angvel(to_real(release.spin));
-        body.position.rotation = rotation;
-        let center = to_quaternion(rotation) * experiment.mass.center;
-        body.position.translation = to_real(start - center);
-        let (handle, _) = world.insert(body, collider);
-        let mut immersion = Immersion::new(experiment.fluid);
-        immersion.integrator = experiment.integrator;
-        immersion.insert(handle, experiment.body.clone());
-        Self {
-            world,
-            immersion,
-            handle,
-        }
-    }
-
-    /// Steps, and says where the center of mass is, m.
-    fn step(&mut self, control: ForceFactors) -> Vector3<f64> {
-        self.immersion.set_control(self.handle, control);
-        self.immersion.step(&mut self.world);
-        to_f64(self.world.bodies[self.handle].center_of_mass())
-    }
-
-    /// Puts the free body where rapier's is.
-    fn correct(&self, pilot: &mut FreeBody) {
-        let body = &self.world.bodies[self.handle];
-        pilot.follow(
-            to_f64(body.center_of_mass()),
-            to_quaternion(*body.rotation()),
-            to_f64(body.linvel()),
-            to_f64(body.angvel()),
-        );
-    }
+/// Puts a free body where rapier's is.
+fn correct(trial: &mut FreeBody, state: &BodyState) {
+    trial.follow(
+        state.position,
+        state.orientation,
+        state.velocity,
+        state.spin,
+    );
 }
 
 #[cfg(test)]

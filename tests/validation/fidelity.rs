@@ -16,7 +16,7 @@ const EFFORT: Effort = Effort {
 #[test]
 fn plates_tumble_flutter_and_are_chaotic() {
     let fidelity = Fidelity {
-        plates: Plate::measured().unwrap(),
+        plates: Plate::targets().unwrap(),
         ..Fidelity::default()
     };
     let report = fidelity

@@ -104,7 +104,7 @@ impl Fidelity {
     /// None for the numbers that ship.
     pub fn new() -> Result<Self, Error> {
         Ok(Self {
-            plates: Plate::measured()?,
+            plates: Plate::targets()?,
             discs: Disc::measured()?,
             papers: PaperDrop::measured()?,
             shares: TumblingShare::measured()?,

@@ -29,6 +29,8 @@ pub struct Plate {
     pub beta: f64,
     /// How it falls.
     pub regime: Regime,
+    /// Whether the regime was observed; if not, it is what is expected between plates that were.
+    pub observed: bool,
     /// Mean horizontal speed, m/s, where it was published.
     pub drift: Option<f64>,
     /// Mean descent, m/s, where it was published.
@@ -62,7 +64,7 @@ impl Plate {
     ///
     /// # Errors
     /// None for these numbers.
-    pub fn measured() -> Result<Vec<Self>, Error> {
+    pub fn targets() -> Result<Vec<Self>, Error> {
         use Regime::{PeriodicFlutter, PeriodicTumbling, TransitionalChaotic};
         Ok(vec![
             Self {
@@ -71,9 +73,15 @@ impl Plate {
                 spin: Some(14.5),
                 ..Self::new(1.0 / 8.0, PeriodicTumbling)?
             },
-            Self::new(1.0 / 9.5, TransitionalChaotic)?,
+            Self {
+                observed: false,
+                ..Self::new(1.0 / 9.5, TransitionalChaotic)?
+            },
             Self::new(1.0 / 10.0, TransitionalChaotic)?,
-            Self::new(1.0 / 11.0, TransitionalChaotic)?,
+            Self {
+                observed: false,
+                ..Self::new(1.0 / 11.0, TransitionalChaotic)?
+            },
             Self {
                 // Not a printed speed: it follows from Re = 1147 on the chord.
                 descent: Some(0.090),
@@ -93,6 +101,7 @@ impl Plate {
         Ok(Self {
             beta,
             regime,
+            observed: true,
             drift: None,
             descent: None,
             spin: None,

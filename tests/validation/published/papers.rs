@@ -47,10 +47,10 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
     let all = reports(&measured, effort, progress)?;
     let mut rows = Vec::new();
     for (index, drop) in measured.papers.iter().enumerate() {
-        for (what, bar, published, of) in QUANTITIES {
+        for (what, bar, measured, of) in QUANTITIES {
             let ours = median(&all[0], |r| r.papers[index].mean(of));
             let case = format!("{}, {what}, stand-alone", name(drop));
-            let pair = [published(drop)[0], ours];
+            let pair = [measured(drop)[0], ours];
             rows.push(Row::number(case, pair, "m/s", Some(bar), SOURCE));
         }
     }
@@ -100,13 +100,13 @@ fn picture(measured: &Fidelity, reports: &Reports) -> Result<String, Failure> {
     const BLUE: RGBColor = RGBColor(30, 90, 200);
     const RED: RGBColor = RGBColor(211, 47, 47);
     let mut panels = Vec::new();
-    for (what, _, published, of) in QUANTITIES {
+    for (what, _, target, of) in QUANTITIES {
         let title = format!("{what}: measured mean and deviation (red), ours (blue)");
         let mut panel = Panel::new(title, "set, in the order of the table", "m/s");
         panel.window = Some([(0.0, 10.0), (0.0, 1.1)]);
         for (index, drop) in measured.papers.iter().enumerate() {
             let x = (index + 1) as f64;
-            let [mean, deviation] = published(drop);
+            let [mean, deviation] = target(drop);
             let bar = vec![(x - 0.12, mean - deviation), (x - 0.12, mean + deviation)];
             panel.items.push(Item::Line(bar, RED, 2));
             panel.items.push(Item::Dots(vec![(x - 0.12, mean)], RED, 5));

@@ -11,8 +11,9 @@ use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::training::fidelity::{Fidelity, Plate, PlateFall, PlateResult};
 
 const SOURCE: &str = "Andersen, Pesavento & Wang 2005";
+const EXPECTED: &str = "expected between the plates measured";
 
-/// What is published of a plate, and the same of a fall.
+/// What was measured of a plate, and the same of a fall.
 type Quantity = (
     &'static str,
     &'static str,
@@ -27,7 +28,7 @@ const QUANTITIES: [Quantity; 3] = [
 
 pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> {
     let measured = Fidelity {
-        plates: Plate::measured()?,
+        plates: Plate::targets()?,
         ..Fidelity::default()
     };
     let all = reports(&measured, effort, progress)?;
@@ -40,7 +41,8 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
             let words = [plate.regime.to_string(), ours.to_string()];
             let words = words.each_ref().map(String::as_str);
             rows.push(match runner {
-                Runner::Alone => Row::word(case("regime"), words, SOURCE),
+                Runner::Alone if plate.observed => Row::word(case("regime"), words, SOURCE),
+                Runner::Alone => Row::word(case("regime"), words, EXPECTED),
                 _ => {
                     let alone = regime(&all[0], index).to_string();
                     Row::word(
@@ -50,8 +52,8 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
                     )
                 }
             });
-            for (what, unit, published, of) in QUANTITIES {
-                let Some(published) = published(plate) else {
+            for (what, unit, measured, of) in QUANTITIES {
+                let Some(measured) = measured(plate) else {
                     continue;
                 };
                 let mean = |reports: &Reports| median(reports, |r| r.plates[index].mean(of));
@@ -59,7 +61,7 @@ pub fn compute(effort: Effort, progress: Progress) -> Result<Computed, Failure> 
                 let source = "stand-alone; ".to_owned() + STEPS;
                 rows.push(match runner {
                     Runner::Alone => {
-                        let pair = [published, numbers[1]];
+                        let pair = [measured, numbers[1]];
                         Row::number(case(what), pair, unit, Some(0.1), SOURCE)
                     }
                     Runner::HalfStep => Row::number(case(what), numbers, unit, None, source),
@@ -101,8 +103,13 @@ fn picture(measured: &Fidelity) -> Result<String, Failure> {
         let size = last.x.hypot(last.z).max(1e-9);
         let along = [last.x / size, last.z / size];
         let flat = |x: f64, y: f64, z: f64| (100.0 * (x * along[0] + z * along[1]), 100.0 * y);
+        let word = if plate.observed {
+            "measured"
+        } else {
+            "expected"
+        };
         let mut panel = Panel::new(
-            format!("β = 1/{}: measured {}", 1.0 / plate.beta, plate.regime),
+            format!("β = 1/{}: {word} {}", 1.0 / plate.beta, plate.regime),
             "cm",
             "cm",
         )
