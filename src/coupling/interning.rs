@@ -179,6 +179,42 @@ mod tests {
         assert_eq!(reloaded.intern(Colliding(8)), 3);
     }
 
+    /// A thousand different values are compared with each other about never: looking them up costs their
+    /// number, not its square.
+    #[test]
+    fn different_values_are_not_compared() {
+        use std::cell::Cell;
+        thread_local!(static COMPARISONS: Cell<u32> = const { Cell::new(0) });
+
+        #[derive(Clone)]
+        struct Counted(f64);
+
+        impl PartialEq for Counted {
+            fn eq(&self, other: &Self) -> bool {
+                COMPARISONS.set(COMPARISONS.get() + 1);
+                self.0 == other.0
+            }
+        }
+
+        impl Content for Counted {
+            fn hash_content(&self, hasher: &mut DefaultHasher) {
+                hash_numbers(hasher, [&self.0]);
+            }
+        }
+
+        let mut interned = Interned::default();
+        for round in 0..2 {
+            for i in 0..1000 {
+                assert_eq!(interned.intern(Counted(f64::from(i).sqrt())), i as u32);
+            }
+            assert!(
+                COMPARISONS.get() <= 1000 * round + 2,
+                "{}",
+                COMPARISONS.get()
+            );
+        }
+    }
+
     /// The two zeros are equal and must hash alike; the sign of anything else counts.
     #[test]
     fn zeros_hash_alike() {

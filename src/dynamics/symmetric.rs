@@ -83,7 +83,7 @@ impl<T: Scalar> InertiaConstants<T> {
             (xy + l.z * l.z) * per,
         );
 
-        // What of the other two off-diagonal blocks is not zero.
+        // The entries of the other two off-diagonal blocks that are not zero.
         let (ma, mb) = (mz * a, mz * b);
         let (cxa, cxb, cya, cyb) = (c.x * a, c.x * b, c.y * a, c.y * b);
         let (xy12, yx12) = (p.z - cyb, cxa - p.z);

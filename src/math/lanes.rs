@@ -34,11 +34,11 @@ pub(crate) trait OnLanes {
     fn run<S: Simd>(self, simd: S);
 }
 
-/// Has [`dispatch`] take the narrow registers.
+/// While this is true, [`dispatch`] takes the narrow registers.
 #[cfg(test)]
 pub(crate) static NARROW: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
 
-/// Does `task` with the widest registers of this machine.
+/// Runs `task` with the widest registers of this machine.
 pub(crate) fn dispatch(task: impl OnLanes) {
     #[cfg(test)]
     if NARROW.load(std::sync::atomic::Ordering::Relaxed) {
@@ -54,7 +54,7 @@ pub(crate) fn dispatch(task: impl OnLanes) {
     dispatch_narrow(task);
 }
 
-/// Does `task` with registers of four lanes.
+/// Runs `task` with registers of four lanes.
 pub(crate) fn dispatch_narrow(task: impl OnLanes) {
     if let Some(simd) = four_lanes() {
         task.run(simd);
@@ -212,7 +212,7 @@ impl<S: Simd> Neg for Lanes<S> {
     }
 }
 
-/// Lane by lane.
+/// Defines an operator that acts lane by lane.
 macro_rules! operator {
     ($trait:ident $name:ident, $assign_trait:ident $assign:ident) => {
         impl<S: Simd> $trait for Lanes<S> {
@@ -396,7 +396,7 @@ mod tests {
         }
     }
 
-    /// Side by side, then apart.
+    /// Rows that are put side by side and taken apart again are the same.
     #[test]
     fn rows_become_columns() {
         both_widths(Rows);

@@ -148,7 +148,7 @@ const LN_2: [f64; 2] = [0.693_359_375, -2.121_944_4e-4];
 #[inline(always)]
 pub(super) fn exponential<T: Binary32>(x: T) -> T {
     let x = x.max(x.constant(-87.0)).min(x.constant(87.0));
-    // So large a sum has no room for a fraction: that rounds.
+    // The sum is so large that it has no bits for a fraction, which rounds x to a whole number.
     let shift = x.constant(12_582_912.0);
     let shifted = x * x.constant(std::f64::consts::LOG2_E) + shift;
     let n = shifted - shift;

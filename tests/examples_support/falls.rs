@@ -7,7 +7,7 @@ use crate::support::law::{LawName, law};
 use crate::support::picture;
 use crate::support::specimen::{ShapeName, Specimen, TiltAxis};
 use rapier3d_immersed::training::BodyState;
-use rapier3d_immersed::{Fluid, ImmersedBody, ViscousLaw};
+use rapier3d_immersed::{Fluid, ImmersedBody, PhysicalLaw, ViscousLaw};
 
 fn fall(
     shape: ShapeName,
@@ -130,6 +130,14 @@ fn coefficients_are_read_or_refused() {
     assert!(matches!(thesis, ViscousLaw::Thesis(t) if t.translational_lift == -3.0));
     let physical = law(LawName::Default, Some("munk=0.5,attached-lift=3")).unwrap();
     assert!(matches!(physical, ViscousLaw::Physical(p) if p.munk == 0.5 && p.attached_lift == 3.0));
+    // Every coefficient of the default law can be given.
+    for row in PhysicalLaw::COEFFICIENTS {
+        let text = format!("{}=0.75", row.name);
+        match law(LawName::Default, Some(&text)).unwrap() {
+            ViscousLaw::Physical(law) => assert_eq!(row.of(&law), 0.75, "{text}"),
+            other => panic!("{other:?}"),
+        }
+    }
     for (name, text) in [
         (LawName::Default, "0.5"),
         (LawName::Default, "mink=0.5"),

@@ -159,7 +159,7 @@ impl<S: Simd> LaneGroup<'_, S> {
             translational_lift,
         };
         let m = &mut motion;
-        // What most bodies are has code of its own.
+        // Most bodies are symmetric plates: they have code of their own, the others share theirs.
         match (law, self.symmetric) {
             (PreparedLaw::Plate(law), true) => {
                 let law = Factored { law, factors };

@@ -217,7 +217,7 @@ pub(in crate::coupling) struct Workspace {
     /// Bodies that are about to be moved, by route.
     pub batches: [Batch; Route::COUNT],
     pub close: CloseBodies,
-    /// Of the bodies between `before_step` and `after_step`.
+    /// What the bodies had before the step: filled by `before_step`, emptied by `after_step`.
     pub saved_forces: Vec<SavedForces>,
     pub samples: Vec<FlowSample>,
 }

@@ -3,7 +3,7 @@
 
 use crate::error::Error;
 
-/// What a coefficient may be.
+/// The values that a coefficient may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bounds {
     /// Any finite number.
@@ -35,7 +35,7 @@ impl Bounds {
 pub struct Coefficient<L> {
     /// Name, that of the law's field.
     pub name: &'static str,
-    /// What it may be.
+    /// The values that it may have.
     pub bounds: Bounds,
     /// Where a calibration looks for it; `None` if measurements other than falls decide it.
     pub search: Option<[f64; 2]>,
