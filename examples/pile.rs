@@ -5,8 +5,8 @@
 //! cargo run --release --example pile
 //! ```
 //!
-//! Printed every half second: how many leaves are still in the air, how high the pile is, and how fast its
-//! leaves move. Leaves without any gap between them would be `solid` high: a lower pile has sunk into
+//! Printed every half second: how many leaves still fall, how high the pile is, how fast its leaves move, and
+//! how many sleep. Leaves without any gap between them would be `solid` high: a lower pile has sunk into
 //! itself.
 
 use rapier3d_immersed::rapier3d::prelude::*;
