@@ -41,6 +41,17 @@ pub enum Error {
     #[error("the added-mass tensor is not symmetric, positive and finite")]
     UnphysicalAddedMass,
 
+    /// A body is so small, large, light or heavy that the constants of its motion overflow.
+    #[error(
+        "the motion of a body of {mass} kg (added mass included) and {length} m is beyond single precision"
+    )]
+    BeyondSinglePrecision {
+        /// Mass of body and added mass, kg.
+        mass: f64,
+        /// Half of its longest extent, m.
+        length: f64,
+    },
+
     /// A rigid body handle is stale.
     #[error("there is no such rigid body")]
     NoBody,

@@ -25,15 +25,30 @@ pub(super) struct BodyState {
     /// What rapier's body was before; `None` while it is not immersed.
     pub saved: Option<Box<SavedProperties>>,
     /// Index of the constants that the body shares with its equals, `NONE` until they are known. They are
-    /// looked up again after a snapshot has been loaded.
+    /// made again when a snapshot is loaded.
     #[cfg_attr(feature = "serde-serialize", serde(skip, default = "none"))]
     pub constants: u32,
+    /// Whether rapier's body is as another description or fluid wanted it.
+    pub outdated: bool,
+    pub warned: Warned,
     pub flight: FlightState,
 }
 
 #[cfg(feature = "serde-serialize")]
 fn none() -> u32 {
     NONE
+}
+
+/// Of what the user has been warned for one body: each once.
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub(super) struct Warned {
+    pub refused: bool,
+    pub inertia: bool,
+    pub flow: bool,
 }
 
 /// What a body in flight carries from step to step besides what rapier keeps. World axes.
@@ -55,6 +70,8 @@ pub(super) struct FlightState {
     /// Velocity of the fluid in the last step, m/s, with its fluctuation.
     pub fluid_velocity: Vector,
     pub turbulence: TurbulenceMemory,
+    /// Kinetic energy of the turbulence when it last woke the body, m²/s².
+    pub turbulent_energy: Real,
     /// Whether rapier could not be given the right inertia tensor: torques are converted then.
     pub converts_torque: bool,
     /// Whether all this is from the step before.

@@ -1,6 +1,6 @@
 //! Control of single bodies: factors on the law's forces, set by hand or replayed from a series.
 
-use super::interning::{Content, HashIndex};
+use super::interning::Interned;
 use crate::hydro::viscous::ForceFactors;
 use crate::motion::ControlSeries;
 
@@ -79,6 +79,11 @@ impl BodyControl {
         self.replay.map(|replay| replay.time)
     }
 
+    /// Index of the series that the body replays.
+    pub fn series(&self) -> Option<u32> {
+        self.replay.map(|replay| replay.series)
+    }
+
     /// Sets the factors of a body that replays a series for a step of `dt`, and moves on in the series.
     #[inline]
     pub fn advance(&mut self, touching: bool, table: &SeriesTable, dt: f64) {
@@ -103,126 +108,4 @@ impl BodyControl {
 }
 
 /// The series that bodies replay, equal ones once.
-#[derive(Clone, Debug, Default)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(
-        from = "Vec<Option<ControlSeries>>",
-        into = "Vec<Option<ControlSeries>>"
-    )
-)]
-pub(super) struct SeriesTable {
-    /// `None` where there is room for one.
-    entries: Vec<Option<ControlSeries>>,
-    index: HashIndex,
-}
-
-impl SeriesTable {
-    fn get(&self, index: u32) -> Option<&ControlSeries> {
-        self.entries.get(index as usize)?.as_ref()
-    }
-
-    /// Where a series is kept. When their number has doubled, those that no body replays any more make
-    /// room: `controls` are those of all bodies.
-    pub fn intern<'a>(
-        &mut self,
-        series: &ControlSeries,
-        controls: impl Iterator<Item = &'a BodyControl>,
-    ) -> u32 {
-        let hash = series.content_hash();
-        let known = |place: u32| self.get(place) == Some(series);
-        if let Some(place) = self.index.find(hash, known) {
-            return place;
-        }
-        if self.entries.len() >= 16 && self.entries.len().is_power_of_two() {
-            self.keep_used(controls);
-        }
-        let place = match self.entries.iter().position(Option::is_none) {
-            Some(place) => place,
-            None => {
-                self.entries.push(None);
-                self.entries.len() - 1
-            }
-        };
-        self.entries[place] = Some(series.clone());
-        self.index.insert(hash, place as u32);
-        place as u32
-    }
-
-    fn keep_used<'a>(&mut self, controls: impl Iterator<Item = &'a BodyControl>) {
-        let mut used = vec![false; self.entries.len()];
-        for replay in controls.filter_map(|control| control.replay) {
-            if let Some(used) = used.get_mut(replay.series as usize) {
-                *used = true;
-            }
-        }
-        for (entry, used) in self.entries.iter_mut().zip(used) {
-            if !used {
-                *entry = None;
-            }
-        }
-        self.find_again();
-    }
-
-    /// Makes the index anew.
-    fn find_again(&mut self) {
-        self.index.clear();
-        for (place, series) in self.entries.iter().enumerate() {
-            if let Some(series) = series {
-                self.index.insert(series.content_hash(), place as u32);
-            }
-        }
-    }
-}
-
-impl From<Vec<Option<ControlSeries>>> for SeriesTable {
-    fn from(entries: Vec<Option<ControlSeries>>) -> Self {
-        let mut table = Self {
-            entries,
-            index: HashIndex::default(),
-        };
-        table.find_again();
-        table
-    }
-}
-
-impl From<SeriesTable> for Vec<Option<ControlSeries>> {
-    fn from(table: SeriesTable) -> Self {
-        table.entries
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn series(interval: f64) -> ControlSeries {
-        ControlSeries::new(interval, vec![ForceFactors::ONE], Vec::new()).unwrap()
-    }
-
-    /// Ever new series for one body do not pile up, equal ones are stored once, and those that are in use
-    /// stay.
-    #[test]
-    fn series_make_room() {
-        let mut table = SeriesTable::default();
-        let mut kept = BodyControl::default();
-        kept.replay(
-            table.intern(&series(0.5), std::iter::empty()),
-            OnContact::Stop,
-        );
-        let mut control = BodyControl::default();
-        for i in 0..1000 {
-            let other = series(1.0 + f64::from(i));
-            let place = table.intern(&other, [kept, control].iter());
-            assert_eq!(table.intern(&other, std::iter::empty()), place);
-            control.replay(place, OnContact::Restart);
-        }
-        assert!(table.entries.len() <= 32);
-        let interval = |control: &BodyControl| {
-            let replay = control.replay.unwrap();
-            table.get(replay.series).unwrap().interval()
-        };
-        assert_eq!((interval(&kept), interval(&control)), (0.5, 1000.0));
-    }
-}
+pub(super) type SeriesTable = Interned<ControlSeries>;

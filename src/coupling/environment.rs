@@ -1,6 +1,7 @@
 //! The fluid that the bodies of an immersion are in, and how it moves.
 
-use crate::flow::{Flow, FlowSample};
+use super::registry::SWEEP;
+use crate::flow::{Flow, FlowSample, Still};
 use crate::fluid::Fluid;
 use crate::turbulence::TurbulentLayer;
 use rapier3d::math::Vector;
@@ -26,6 +27,9 @@ pub(super) struct Environment {
     /// The turbulence on top of it. Not part of a snapshot either; what bodies remember of it is.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub turbulence: Option<TurbulentLayer>,
+    /// Steps after which a fluid that comes to rest needs no looking at any more.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    resting_in: u32,
 }
 
 impl Environment {
@@ -38,7 +42,33 @@ impl Environment {
             gravity: Vector::ZERO,
             flow: None,
             turbulence: None,
+            resting_in: 0,
         }
+    }
+
+    /// Sets the flow.
+    pub fn set_flow(&mut self, flow: Arc<dyn Flow>) {
+        self.flow = Some(flow);
+        self.resting_in = 0;
+    }
+
+    /// Ends the flow. For as many steps as it takes to look at every body it is a flow of zero, because
+    /// bodies feel that the fluid is slowed down, and sleeping ones may wake.
+    pub fn come_to_rest(&mut self) {
+        self.flow = Some(Arc::new(Still));
+        self.resting_in = SWEEP + 1;
+    }
+
+    /// Counts a step; whether the fluid, which was coming to rest, rests from now on and has no turbulence.
+    pub fn rests_now(&mut self) -> bool {
+        if self.resting_in == 0 {
+            return false;
+        }
+        self.resting_in -= 1;
+        if self.resting_in == 0 {
+            self.flow = None;
+        }
+        self.resting_in == 0 && self.turbulence.is_none()
     }
 
     /// Whether the fluid moves at all.

@@ -64,24 +64,22 @@ use std::sync::Arc;
 /// assert!((-0.8..-0.1).contains(&world.bodies[coin].linvel().y));
 /// # Ok::<(), rapier3d_immersed::Error>(())
 /// ```
+///
+/// # Snapshots
+/// With the feature `serde-serialize` a snapshot holds all but flow and turbulence, which are set again.
+/// Together with one of the rapier world it goes on bit by bit. Loading refuses other versions and what
+/// cannot be; saving fails between `before_step` and `after_step`.
 #[derive(Clone)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
 pub struct Immersion {
     /// How finely flight is integrated within a step of rapier.
     pub integrator: Integrator,
-    enabled: bool,
-    environment: Environment,
-    registry: Registry,
-    series: SeriesTable,
-    warnings: Warnings,
-    /// Made again after loading.
-    #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    constants: ConstantsTable,
-    #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    workspace: Workspace,
+    pub(super) enabled: bool,
+    pub(super) environment: Environment,
+    pub(super) registry: Registry,
+    pub(super) series: SeriesTable,
+    pub(super) warnings: Warnings,
+    pub(super) constants: ConstantsTable,
+    pub(super) workspace: Workspace,
 }
 
 impl Immersion {
@@ -103,7 +101,7 @@ impl Immersion {
     ///
     /// `body` is [`HydroProperties`](crate::HydroProperties) (under the default law) or an
     /// [`ImmersedBody`]. A handle that is stale or becomes stale is no error; a body that is already
-    /// immersed gets the new description. What cannot be immersed (without mass, say) is left to
+    /// immersed gets the new description and goes on with the velocities that it has. What cannot be immersed (without mass, say) is left to
     /// plain rapier and reported in [`Immersion::warnings`].
     pub fn insert(&mut self, handle: RigidBodyHandle, body: impl Into<ImmersedBody>) {
         self.insert_all([handle], body);
@@ -138,6 +136,14 @@ impl Immersion {
         for handle in handles {
             self.registry.insert(handle, description);
         }
+        self.renew_constants();
+    }
+
+    /// Finds the constants of bodies whose fluid or description has changed. What cannot be immersed is
+    /// refused, and reported, with the next step.
+    fn renew_constants(&mut self) {
+        let _ =
+            admission::renew_constants(&mut self.registry, &mut self.constants, &self.environment);
     }
 
     /// Takes a body out of the fluid and gives it back the mass properties and switches that it had.
@@ -173,7 +179,7 @@ impl Immersion {
     /// The description of a body.
     pub fn get(&self, handle: RigidBodyHandle) -> Option<&ImmersedBody> {
         let state = self.registry.get(handle)?;
-        Some(self.registry.description(state))
+        self.registry.description(state)
     }
 
     /// Switches the fluid off or on for the whole set, from the next step on. While off, the world
@@ -201,11 +207,13 @@ impl Immersion {
         &self.environment.fluid
     }
 
-    /// Changes the fluid, from the next step on.
+    /// Changes the fluid, from the next step on. Bodies go on with the velocities that they have, and
+    /// sleeping ones wake. [`Immersion::forces`] are those in the new fluid at once.
     pub fn set_fluid(&mut self, fluid: Fluid) {
         self.environment.fluid = fluid;
         self.constants.clear();
         self.registry.forget_constants();
+        self.renew_constants();
     }
 
     /// Sets the velocity field of the fluid.
@@ -218,13 +226,14 @@ impl Immersion {
     /// immersion.set_flow(Uniform::new(2.0, 0.0, 0.0)); // a breeze along +x
     /// ```
     pub fn set_flow(&mut self, flow: impl Flow + 'static) {
-        self.environment.flow = Some(Arc::new(flow));
+        self.environment.set_flow(Arc::new(flow));
     }
 
-    /// Lets the fluid rest, but for its turbulence.
+    /// Lets the fluid rest, but for its turbulence: the same as a flow that is zero everywhere.
     pub fn clear_flow(&mut self) {
-        self.environment.flow = None;
-        self.forget_flow();
+        if self.environment.flow.is_some() {
+            self.environment.come_to_rest();
+        }
     }
 
     /// Stirs the fluid: turbulence on top of the mean flow, another for each body.
@@ -252,17 +261,8 @@ impl Immersion {
         for state in self.registry.iter_mut() {
             state.flight.turbulence = Default::default();
         }
-        self.forget_flow();
-    }
-
-    /// Where nothing moves the fluid any more, bodies start afresh in it.
-    fn forget_flow(&mut self) {
-        if self.environment.moves() {
-            return;
-        }
-        for state in self.registry.iter_mut() {
-            state.flight.fluid_velocity = Default::default();
-            state.flight.continues = false;
+        if self.environment.flow.is_none() {
+            self.environment.come_to_rest();
         }
     }
 
@@ -324,8 +324,23 @@ impl Immersion {
         admission.admit(sets);
         admission.sweep(sets);
         self.environment.gravity = sets.gravity;
+        if driver::give_back(&mut self.parts(), sets) {
+            self.warnings.push_once(Warning::UnfinishedStep);
+        }
         if self.enabled {
             driver::before_step(&mut self.parts(), sets);
+            self.warn_of_flows();
+        }
+    }
+
+    /// Warns of bodies at which the flow was no number, of each once.
+    fn warn_of_flows(&mut self) {
+        for body in self.workspace.bad_flows.drain(..) {
+            if let Some(state) = self.registry.get_mut(body)
+                && !std::mem::replace(&mut state.warned.flow, true)
+            {
+                self.warnings.push(Warning::FlowNotFinite { body });
+            }
         }
     }
 
@@ -337,6 +352,11 @@ impl Immersion {
             let dt = sets.integration_parameters.dt.max(0.0);
             self.environment.time += f64::from(dt);
             self.environment.steps += 1;
+            if self.environment.rests_now() {
+                for state in self.registry.iter_mut() {
+                    state.flight.fluid_velocity = Default::default();
+                }
+            }
         }
     }
 
@@ -419,10 +439,9 @@ impl Immersion {
         let Some(index) = self.registry.index(handle) else {
             return;
         };
-        let controls = self.registry.states().iter().flatten();
-        let series = self
-            .series
-            .intern(series, controls.map(|state| &state.control));
+        let states = self.registry.states().iter().flatten();
+        let used = || states.filter_map(|state| state.control.series());
+        let series = self.series.intern(series.clone(), used);
         if let Some(state) = self.registry.at_mut(index) {
             state.control.replay(series, on_contact);
         }
@@ -438,11 +457,5 @@ impl Immersion {
     /// How far a body has come in the series that it replays, s; `None` if it replays none.
     pub fn replay_time(&self, handle: RigidBodyHandle) -> Option<f64> {
         self.registry.get(handle)?.control.time()
-    }
-
-    /// What tests of the step look at.
-    #[cfg(test)]
-    pub(super) fn inside(&self) -> (&Registry, &ConstantsTable) {
-        (&self.registry, &self.constants)
     }
 }

@@ -38,21 +38,18 @@ impl HashIndex {
     pub fn insert(&mut self, hash: u64, place: u32) {
         self.places.entry(hash).or_default().push(place);
     }
-
-    /// Forgets all places.
-    pub fn clear(&mut self) {
-        self.places.clear();
-    }
 }
 
-/// Distinct values in the order of their arrival.
+/// Distinct values, each at an index that stays. Values that nobody uses any more make room: they are
+/// looked for when as many have been added as were used the last time, so that the table holds at most about
+/// twice what is used and adding a value costs a constant time on average.
 #[derive(Clone, Debug)]
 #[cfg_attr(
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize),
     serde(
-        from = "Vec<T>",
-        into = "Vec<T>",
+        from = "Vec<Option<T>>",
+        into = "Vec<Option<T>>",
         bound(
             serialize = "T: Clone + serde::Serialize",
             deserialize = "T: Content + serde::Deserialize<'de>"
@@ -60,52 +57,121 @@ impl HashIndex {
     )
 )]
 pub(super) struct Interned<T> {
-    values: Vec<T>,
+    /// `None` where there is room for one.
+    values: Vec<Option<T>>,
+    free: Vec<u32>,
     index: HashIndex,
+    /// Values that may be added before unused ones are looked for.
+    before_sweep: u32,
 }
+
+/// Values that are kept without asking whether they are used.
+const FEW: u32 = 16;
 
 impl<T> Default for Interned<T> {
     fn default() -> Self {
         Self {
             values: Vec::new(),
+            free: Vec::new(),
             index: HashIndex::default(),
+            before_sweep: FEW,
         }
+    }
+}
+
+impl<T> Interned<T> {
+    /// The value at an index that [`Interned::add`] has returned and that has been used since.
+    pub fn get(&self, index: u32) -> Option<&T> {
+        self.values.get(index as usize)?.as_ref()
+    }
+
+    /// The values, in the order of their indices.
+    #[cfg(feature = "serde-serialize")]
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
+        self.values.iter().flatten()
+    }
+
+    /// The index of the value with this hash for which `is` holds.
+    pub fn find(&self, hash: u64, is: impl Fn(&T) -> bool) -> Option<u32> {
+        self.index
+            .find(hash, |place| self.get(place).is_some_and(&is))
+    }
+}
+
+impl<T: Content> Interned<T> {
+    /// Adds a value that is not there yet. `used` gives the indices of the values that are in use.
+    pub fn add<U: IntoIterator<Item = u32>>(&mut self, value: T, used: impl FnOnce() -> U) -> u32 {
+        if self.before_sweep == 0 {
+            self.sweep(used());
+        }
+        self.before_sweep -= 1;
+        let hash = value.content_hash();
+        let place = match self.free.pop() {
+            Some(place) => {
+                self.values[place as usize] = Some(value);
+                place
+            }
+            None => {
+                self.values.push(Some(value));
+                self.values.len() as u32 - 1
+            }
+        };
+        self.index.insert(hash, place);
+        place
+    }
+
+    /// Forgets the values that are not used.
+    fn sweep(&mut self, used: impl IntoIterator<Item = u32>) {
+        let mut is_used = vec![false; self.values.len()];
+        for place in used {
+            if let Some(is_used) = is_used.get_mut(place as usize) {
+                *is_used = true;
+            }
+        }
+        let values = std::mem::take(&mut self.values);
+        let kept = values.into_iter().zip(is_used);
+        let kept = kept.map(|(value, used)| value.filter(|_| used));
+        *self = Self::from(kept.collect::<Vec<_>>());
     }
 }
 
 impl<T: Content + PartialEq> Interned<T> {
     /// The index of a value, which is added if it is new.
-    pub fn intern(&mut self, value: T) -> u32 {
-        let hash = value.content_hash();
-        let known = |place: u32| self.values[place as usize] == value;
-        if let Some(place) = self.index.find(hash, known) {
-            return place;
+    pub fn intern<U: IntoIterator<Item = u32>>(
+        &mut self,
+        value: T,
+        used: impl FnOnce() -> U,
+    ) -> u32 {
+        match self.find(value.content_hash(), |known| *known == value) {
+            Some(place) => place,
+            None => self.add(value, used),
         }
-        let place = self.values.len() as u32;
-        self.index.insert(hash, place);
-        self.values.push(value);
-        place
     }
 }
 
-impl<T> Interned<T> {
-    /// The value of an index that [`Interned::intern`] has returned.
-    pub fn get(&self, index: u32) -> &T {
-        &self.values[index as usize]
-    }
-}
-
-impl<T: Content> From<Vec<T>> for Interned<T> {
-    fn from(values: Vec<T>) -> Self {
+impl<T: Content> From<Vec<Option<T>>> for Interned<T> {
+    fn from(values: Vec<Option<T>>) -> Self {
         let mut index = HashIndex::default();
+        let (mut free, mut kept) = (Vec::new(), 0);
         for (place, value) in values.iter().enumerate() {
-            index.insert(value.content_hash(), place as u32);
+            match value {
+                Some(value) => {
+                    index.insert(value.content_hash(), place as u32);
+                    kept += 1;
+                }
+                None => free.push(place as u32),
+            }
         }
-        Self { values, index }
+        Self {
+            values,
+            free,
+            index,
+            before_sweep: kept.max(FEW),
+        }
     }
 }
 
-impl<T> From<Interned<T>> for Vec<T> {
+impl<T> From<Interned<T>> for Vec<Option<T>> {
     fn from(interned: Interned<T>) -> Self {
         interned.values
     }
@@ -170,13 +236,33 @@ mod tests {
     /// Equal values share an index, different ones do not, even where their hashes collide.
     #[test]
     fn equal_values_share_an_index() {
+        let none = || [];
         let mut interned = Interned::default();
-        let places = [5, 7, 5, 9, 7].map(|x| interned.intern(Colliding(x)));
+        let places = [5, 7, 5, 9, 7].map(|x| interned.intern(Colliding(x), none));
         assert_eq!(places, [0, 1, 0, 2, 1]);
-        assert_eq!(interned.get(2), &Colliding(9));
+        assert_eq!(interned.get(2), Some(&Colliding(9)));
         let mut reloaded = Interned::from(Vec::from(interned));
-        assert_eq!(reloaded.intern(Colliding(7)), 1);
-        assert_eq!(reloaded.intern(Colliding(8)), 3);
+        assert_eq!(reloaded.intern(Colliding(7), none), 1);
+        assert_eq!(reloaded.intern(Colliding(8), none), 3);
+    }
+
+    /// Forty-five thousand values of which eight are in use at a time leave no more than a few dozen behind,
+    /// and the used ones keep their indices.
+    #[test]
+    fn unused_values_make_room() {
+        let mut interned = Interned::default();
+        let mut used = std::collections::VecDeque::new();
+        for x in 0..45_000 {
+            let place = interned.intern(Colliding(x), || used.iter().map(|(place, _)| *place));
+            used.push_back((place, x));
+            if used.len() > 8 {
+                used.pop_front();
+            }
+            for (place, x) in &used {
+                assert_eq!(interned.get(*place), Some(&Colliding(*x)));
+            }
+        }
+        assert!(interned.values.len() <= 40, "{}", interned.values.len());
     }
 
     /// A thousand different values are compared with each other about never: looking them up costs their
@@ -205,7 +291,8 @@ mod tests {
         let mut interned = Interned::default();
         for round in 0..2 {
             for i in 0..1000 {
-                assert_eq!(interned.intern(Counted(f64::from(i).sqrt())), i as u32);
+                let all = || 0..i as u32;
+                assert_eq!(interned.intern(Counted(f64::from(i).sqrt()), all), i as u32);
             }
             assert!(
                 COMPARISONS.get() <= 1000 * round + 2,

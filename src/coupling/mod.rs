@@ -20,6 +20,8 @@ mod readout;
 mod registry;
 mod saved_properties;
 mod shared_constants;
+#[cfg(feature = "serde-serialize")]
+mod snapshot;
 mod step;
 mod warning;
 

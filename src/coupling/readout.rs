@@ -1,6 +1,6 @@
 //! The forces on one body of the world.
 
-use super::body_state::{BodyState, NONE};
+use super::body_state::BodyState;
 use super::environment::Environment;
 use super::shared_constants::ConstantsTable;
 use crate::dynamics::ForceBreakdown;
@@ -18,10 +18,8 @@ pub(super) fn forces(
     environment: &Environment,
     body: &RigidBody,
 ) -> Option<ForceBreakdown> {
-    if state.constants == NONE || state.saved.is_none() {
-        return None;
-    }
-    let c = &constants.get(state.constants).constants;
+    state.saved.as_ref()?;
+    let c = &constants.get(state.constants)?.constants;
     let axes = UnitQuaternion::from_rotation_matrix(&c.axes);
     let attitude = to_quaternion(*body.rotation()) * axes;
     let mean = environment.mean_flow(body.center_of_mass());

@@ -1,10 +1,15 @@
 //! Which bodies are immersed, by rapier's handles.
 
-use super::body_state::{BodyState, FlightState, NONE};
+use super::body_state::{BodyState, FlightState, NONE, Warned};
 use super::control::BodyControl;
 use super::interning::Interned;
 use crate::body::ImmersedBody;
+#[cfg(feature = "serde-serialize")]
+use crate::error::Error;
 use rapier3d::dynamics::RigidBodyHandle;
+
+/// Sleeping and stale bodies are looked at once in this many steps.
+pub(super) const SWEEP: u32 = 16;
 
 /// The bodies of an immersion and their descriptions.
 #[derive(Clone, Default)]
@@ -16,8 +21,10 @@ pub(super) struct Registry {
     descriptions: Interned<ImmersedBody>,
     bodies: Vec<Option<BodyState>>,
     /// Index into `bodies` of each index of rapier's, or `NONE`.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
     lookup: Vec<u32>,
-    /// Indices of `bodies` that are free.
+    /// Indices of `bodies` that are free, in the order in which they became so: the place that a body gets
+    /// decides in which step it is looked at while it sleeps.
     free: Vec<u32>,
     /// Which of the bodies that a step does not visit are looked at next.
     pub sweep_phase: u32,
@@ -34,28 +41,86 @@ fn yes() -> bool {
     true
 }
 
+/// Indices of rapier's that a snapshot may have.
+#[cfg(feature = "serde-serialize")]
+const MOST_BODIES: u32 = 1 << 26;
+
+#[cfg(feature = "serde-serialize")]
 impl Registry {
-    /// The index of a description, which is stored if it is new.
+    /// Checks what was read, and makes the look-up of handles from it.
+    ///
+    /// # Errors
+    /// Those of the descriptions; [`Error::InvalidParameter`] or [`Error::OutOfRange`] names an index or a
+    /// body that is there twice.
+    pub fn restore(&mut self) -> Result<(), Error> {
+        for description in self.descriptions.iter() {
+            description.hydro.check()?;
+            description.law.check()?;
+        }
+        let mut free = self.free.clone();
+        free.sort_unstable();
+        let gaps = self.bodies.iter().enumerate();
+        let gaps = gaps.filter(|(_, state)| state.is_none());
+        let same = gaps.map(|(index, _)| index as u32).eq(free);
+        let gaps = self.free.len() as f64;
+        Error::check("free places for bodies", gaps, same, "each gap once")?;
+        for (index, state) in self.bodies.iter().enumerate() {
+            let Some(state) = state else {
+                continue;
+            };
+            let described = self.descriptions.get(state.description).is_some();
+            let description = f64::from(state.description);
+            Error::check(
+                "description of a body",
+                description,
+                described,
+                "a known one",
+            )?;
+            let rapier_index = state.handle.into_raw_parts().0;
+            let most = f64::from(MOST_BODIES);
+            Error::check_range("index of a body", rapier_index.into(), 0.0, most)?;
+            let rapier_index = rapier_index as usize;
+            if self.lookup.len() <= rapier_index {
+                self.lookup.resize(rapier_index + 1, NONE);
+            }
+            let once = self.lookup[rapier_index] == NONE;
+            Error::check("body", rapier_index as f64, once, "there only once")?;
+            self.lookup[rapier_index] = index as u32;
+        }
+        Ok(())
+    }
+}
+
+impl Registry {
+    /// The index of a description, which is stored if it is new. It has to be given to a body before the
+    /// next one is asked for, or it may be forgotten.
     pub fn describe(&mut self, body: ImmersedBody) -> u32 {
-        self.descriptions.intern(body)
+        let states = self.bodies.iter().flatten();
+        self.descriptions
+            .intern(body, || states.map(|state| state.description))
     }
 
     /// The description of a body.
-    pub fn description(&self, state: &BodyState) -> &ImmersedBody {
-        self.description_at(state.description)
+    pub fn description(&self, state: &BodyState) -> Option<&ImmersedBody> {
+        self.descriptions.get(state.description)
     }
 
-    /// The description of an index that [`Registry::describe`] has returned.
-    pub fn description_at(&self, index: u32) -> &ImmersedBody {
-        self.descriptions.get(index)
+    /// Indices of the constants that are in use.
+    pub fn used_constants(&self) -> impl Iterator<Item = u32> {
+        self.bodies.iter().flatten().map(|state| state.constants)
     }
 
-    /// Adds a body, or gives one that is there another description.
+    /// Adds a body, or gives one that is there another description. Rapier's invalid handle is that of no
+    /// body and is passed over.
     pub fn insert(&mut self, handle: RigidBodyHandle, description: u32) {
+        if handle == RigidBodyHandle::invalid() {
+            return;
+        }
         self.changed = true;
         if let Some(state) = self.get_mut(handle) {
             state.description = description;
             state.constants = NONE;
+            state.outdated = true;
             return;
         }
         let rapier_index = handle.into_raw_parts().0 as usize;
@@ -78,6 +143,8 @@ impl Registry {
             control: BodyControl::default(),
             saved: None,
             constants: NONE,
+            outdated: false,
+            warned: Warned::default(),
             flight: FlightState::default(),
         });
     }
@@ -139,6 +206,7 @@ impl Registry {
         self.changed = true;
         for state in self.iter_mut() {
             state.constants = NONE;
+            state.outdated = true;
         }
     }
 

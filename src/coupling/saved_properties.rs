@@ -35,6 +35,42 @@ enum ColliderMass {
     Explicit(MassProperties),
 }
 
+#[cfg(feature = "serde-serialize")]
+impl SavedProperties {
+    /// # Errors
+    /// Those of [`DryMass::check`]; [`Error::NotFinite`] names a mass property of a collider.
+    pub fn check(&self) -> Result<(), Error> {
+        self.dry.check()?;
+        let check = |properties: &MassProperties| {
+            let frame = properties.principal_inertia_local_frame;
+            let numbers = [
+                properties.local_com.to_array().as_slice(),
+                properties.inv_principal_inertia.to_array().as_slice(),
+                frame.to_array().as_slice(),
+                &[properties.inv_mass],
+            ]
+            .concat();
+            let numbers: Vec<f64> = numbers.into_iter().map(f64::from).collect();
+            Error::check_all_finite("mass properties of a collider", &numbers)
+        };
+        for (_, mass) in &self.colliders {
+            match mass {
+                ColliderMass::Density(density) => {
+                    Error::check_not_negative("density of a collider", (*density).into())?;
+                }
+                ColliderMass::Explicit(properties) => check(properties)?,
+            }
+        }
+        match &self.additional {
+            Some(RigidBodyAdditionalMassProps::MassProps(properties)) => check(properties),
+            Some(RigidBodyAdditionalMassProps::Mass(mass)) => {
+                Error::check_not_negative("additional mass", (*mass).into()).map(|_| ())
+            }
+            None => Ok(()),
+        }
+    }
+}
+
 impl SavedProperties {
     /// Reads a body as it is. Also returns the relative error of rapier's own inertia for it.
     ///

@@ -1,6 +1,6 @@
 //! What equal bodies in the same fluid share at run time.
 
-use super::interning::{Content, HashIndex};
+use super::interning::{Content, Interned};
 use crate::body::from_rapier::inertia;
 use crate::body::{DryMass, ImmersedBody};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
@@ -22,6 +22,16 @@ pub(super) struct StepConstants<T> {
     pub law: PreparedLaw<T>,
     pub scales: Scales<T>,
     pub flow_response: FlowResponse<T>,
+}
+
+impl StepConstants<f32> {
+    /// Whether every constant is a finite number.
+    fn is_finite(&self) -> bool {
+        self.inertia.is_finite()
+            && self.law.is_finite()
+            && self.scales.is_finite()
+            && self.flow_response.is_finite()
+    }
 }
 
 impl<S: Simd> StepConstants<Lanes<S>> {
@@ -135,8 +145,9 @@ impl Route {
 /// One description with one set of mass properties in one fluid.
 #[derive(Clone, Debug)]
 pub(super) struct SharedConstants {
-    /// Index of the description.
-    pub description: u32,
+    /// Index of the description, and the description.
+    description: u32,
+    body: ImmersedBody,
     pub constants: BodyConstants,
     pub step: StepConstants<f32>,
     /// Plate axes to the body's frame.
@@ -154,7 +165,7 @@ pub(super) struct SharedConstants {
 
 impl SharedConstants {
     /// # Errors
-    /// Those of [`BodyConstants::new`].
+    /// Those of [`BodyConstants::new`]; [`Error::BeyondSinglePrecision`].
     pub fn new(
         description: u32,
         body: &ImmersedBody,
@@ -202,18 +213,23 @@ impl SharedConstants {
             buoyancy_arm: arm,
             rapier_inertia: Matrix3::from_fn(|i, j| turn[(i.min(j), i.max(j))]),
         };
+        let flow_response = FlowResponse {
+            linear: response_linear,
+            angular: response_angular,
+        };
+        let step = StepConstants {
+            inertia: constants.inertia.rounded(),
+            law: constants.law.rounded(),
+            scales: scales.rounded(),
+            flow_response: flow_response.rounded(),
+        };
+        if !step.is_finite() {
+            return Err(Error::BeyondSinglePrecision { mass, length });
+        }
         Ok(Self {
             description,
-            step: StepConstants {
-                inertia: constants.inertia.rounded(),
-                law: constants.law.rounded(),
-                scales: scales.rounded(),
-                flow_response: FlowResponse {
-                    linear: response_linear,
-                    angular: response_angular,
-                }
-                .rounded(),
-            },
+            body: body.clone(),
+            step,
             axes: to_rotation(UnitQuaternion::from_rotation_matrix(&constants.axes)),
             route,
             buoyancy_turns: arm.amax() > 1e-7,
@@ -252,54 +268,61 @@ impl SharedConstants {
         to_real(rotation * (theirs * acceleration))
     }
 
-    /// Whether a body of this description and mass would share them.
-    fn is(&self, description: u32, dry: &DryMass) -> bool {
-        self.description == description && self.constants.dry == *dry
+    /// Whether a body of this description and mass would share them. An index may have been given to
+    /// another description since, so that the description itself is compared, too.
+    fn is(&self, description: u32, body: &ImmersedBody, dry: &DryMass) -> bool {
+        self.description == description && self.constants.dry == *dry && self.body == *body
     }
+}
+
+impl Content for SharedConstants {
+    fn hash_content(&self, hasher: &mut DefaultHasher) {
+        hash_key(self.description, &self.constants.dry, hasher);
+    }
+}
+
+fn hash_key(description: u32, dry: &DryMass, hasher: &mut DefaultHasher) {
+    hasher.write_u32(description);
+    dry.hash_content(hasher);
 }
 
 /// The constants of all bodies that are in the fluid, equal ones once.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ConstantsTable {
-    entries: Vec<SharedConstants>,
-    index: HashIndex,
+    entries: Interned<SharedConstants>,
     /// Whether one of them drags much fluid along.
     pub heavy_fluid: bool,
 }
 
 impl ConstantsTable {
     /// Index of the constants of a body with this description and mass, which are made if there are
-    /// none yet.
+    /// none yet. `used` gives the indices that are in use.
     ///
     /// # Errors
-    /// Those of [`BodyConstants::new`].
-    pub fn intern(
+    /// Those of [`SharedConstants::new`].
+    pub fn intern<U: IntoIterator<Item = u32>>(
         &mut self,
         description: u32,
         body: &ImmersedBody,
         dry: &DryMass,
         fluid: &Fluid,
+        used: impl FnOnce() -> U,
     ) -> Result<u32, Error> {
         let mut hasher = DefaultHasher::new();
-        hasher.write_u32(description);
-        dry.hash_content(&mut hasher);
-        let hash = hasher.finish();
-        let is = |place: u32| self.entries[place as usize].is(description, dry);
-        if let Some(place) = self.index.find(hash, is) {
+        hash_key(description, dry, &mut hasher);
+        let is = |known: &SharedConstants| known.is(description, body, dry);
+        if let Some(place) = self.entries.find(hasher.finish(), is) {
             return Ok(place);
         }
         let constants = SharedConstants::new(description, body, dry, fluid)?;
         self.heavy_fluid |= constants.heavy_fluid;
-        let place = self.entries.len() as u32;
-        self.index.insert(hash, place);
-        self.entries.push(constants);
-        Ok(place)
+        Ok(self.entries.add(constants, used))
     }
 
-    /// The constants at an index that [`ConstantsTable::intern`] has returned.
+    /// The constants at an index that [`ConstantsTable::intern`] has returned, as long as it is in use.
     #[inline(always)]
-    pub fn get(&self, index: u32) -> &SharedConstants {
-        &self.entries[index as usize]
+    pub fn get(&self, index: u32) -> Option<&SharedConstants> {
+        self.entries.get(index)
     }
 
     /// Forgets all, as when the fluid has changed.

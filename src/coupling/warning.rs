@@ -34,12 +34,30 @@ pub enum Warning {
         /// Largest error of an entry over the largest entry.
         relative_error: f64,
     },
+    /// The flow at the body was no number: the fluid around it stayed as it was.
+    FlowNotFinite {
+        /// The body.
+        body: RigidBodyHandle,
+    },
+    /// A step was begun ([`Immersion::before_step`](crate::Immersion::before_step)) before the last one was
+    /// finished ([`Immersion::after_step`](crate::Immersion::after_step)): contacts were not corrected.
+    UnfinishedStep,
 }
 
 impl std::fmt::Display for Warning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Refused { body, reason } => write!(f, "{body:?} is not immersed: {reason}"),
+            Self::FlowNotFinite { body } => {
+                write!(
+                    f,
+                    "the flow at {body:?} is no number; the fluid stays as it was there"
+                )
+            }
+            Self::UnfinishedStep => write!(
+                f,
+                "before_step was called twice without after_step in between"
+            ),
             Self::WrongInertia {
                 body,
                 relative_error,
@@ -76,5 +94,12 @@ impl Warnings {
     pub fn push(&mut self, warning: Warning) {
         log::warn!("{warning}");
         self.list.push(warning);
+    }
+
+    /// Keeps a warning that concerns the whole set, unless it is there already.
+    pub fn push_once(&mut self, warning: Warning) {
+        if !self.list.contains(&warning) {
+            self.push(warning);
+        }
     }
 }

@@ -61,11 +61,13 @@ pub(crate) struct BodyConstants {
 
 impl BodyConstants {
     /// # Errors
-    /// Those of [`DryMass::check`] and [`ViscousLaw::check`].
+    /// Those of [`DryMass::check`], [`HydroProperties::check`](crate::HydroProperties::check) and
+    /// [`ViscousLaw::check`](crate::ViscousLaw::check).
     pub fn new(body: &ImmersedBody, dry: &DryMass, fluid: &Fluid) -> Result<Self, Error> {
         dry.check()?;
         body.law.check()?;
         let hydro = &body.hydro;
+        hydro.check()?;
         let rho = f64::from(fluid.density());
         let about_center = hydro.added_mass_about(dry.center);
         if !about_center.is_physical() {

@@ -5,6 +5,7 @@ mod added_mass;
 #[cfg(feature = "bake")]
 pub mod boundary_element;
 mod carlson;
+mod check;
 mod ellipsoid;
 #[cfg(feature = "serde-serialize")]
 mod file;

@@ -14,6 +14,8 @@ pub(crate) trait Field {
 
     /// Component `i`, in an order of the field's own.
     fn component(&self, i: usize) -> Self::Component;
+    /// Whether a condition holds for every component.
+    fn all(&self, is: impl Fn(Self::Component) -> bool) -> bool;
     /// The field of which `of` gives the components.
     fn from_components<U: Copy + Debug + PartialEq + 'static>(
         of: impl Fn(usize) -> U,
@@ -30,6 +32,9 @@ macro_rules! fields_of {
             fn component(&self, _i: usize) -> $type {
                 *self
             }
+            fn all(&self, is: impl Fn($type) -> bool) -> bool {
+                is(*self)
+            }
             #[inline(always)]
             fn from_components<U: Copy + Debug + PartialEq + 'static>(
                 of: impl Fn(usize) -> U,
@@ -45,6 +50,9 @@ macro_rules! fields_of {
             fn component(&self, i: usize) -> $type {
                 self[i]
             }
+            fn all(&self, is: impl Fn($type) -> bool) -> bool {
+                self.iter().all(|x| is(*x))
+            }
             #[inline(always)]
             fn from_components<U: Copy + Debug + PartialEq + 'static>(
                 of: impl Fn(usize) -> U,
@@ -59,6 +67,9 @@ macro_rules! fields_of {
             #[inline(always)]
             fn component(&self, i: usize) -> $type {
                 self[(i / 3, i % 3)]
+            }
+            fn all(&self, is: impl Fn($type) -> bool) -> bool {
+                self.iter().all(|x| is(*x))
             }
                     #[inline(always)]
                     #[rustfmt::skip]
@@ -108,6 +119,13 @@ macro_rules! scalar_struct {
             /// The nearest constants in f32.
             pub(crate) fn rounded(&self) -> $name<f32> {
                 $name { $($field: $crate::math::fields::rounded(&self.$field),)+ }
+            }
+        }
+
+        impl $name<f32> {
+            /// Whether every constant is a finite number.
+            pub(crate) fn is_finite(&self) -> bool {
+                $($crate::math::fields::Field::all(&self.$field, f32::is_finite))&&+
             }
         }
 

@@ -1,18 +1,23 @@
 //! What must hold: one physical law or promise per module.
 
+mod changed;
 mod control;
 mod determinism;
 mod equivalence;
 mod fidelity;
+#[cfg(feature = "serde-serialize")]
+mod fuzz;
 mod impact;
 mod kirchhoff;
 mod lifecycle;
+mod misuse;
 mod plain;
 mod published;
 mod published_bars;
 mod readout;
 mod robustness;
 mod shapes;
+mod sleepers;
 mod sphere;
 mod stream;
 mod support;

@@ -38,7 +38,6 @@ pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierS
         gravity: sets.gravity,
         integrator: parts.integrator,
     };
-    parts.workspace.saved_forces.clear();
     let heavy_fluid = parts.constants.heavy_fluid;
     contact_mass::find_close(
         parts.registry,
@@ -104,6 +103,7 @@ fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, contex
         context,
         batch,
         &mut workspace.samples,
+        &mut workspace.bad_flows,
     );
     let mut outputs = std::mem::take(&mut batch.outputs);
     let batched = Batched {
@@ -122,6 +122,15 @@ fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, contex
         &mut workspace.saved_forces,
     );
     batch.clear();
+}
+
+/// Gives users' forces back where a step was begun and never finished; whether that was so.
+pub(in crate::coupling) fn give_back(parts: &mut StepParts, sets: &mut RapierSets) -> bool {
+    let unfinished = !parts.workspace.saved_forces.is_empty();
+    for saved in parts.workspace.saved_forces.drain(..) {
+        write_back::give_back(&saved, sets.bodies);
+    }
+    unfinished
 }
 
 /// Gives users' forces back and corrects the velocities of bodies in contact.

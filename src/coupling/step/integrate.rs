@@ -80,8 +80,15 @@ impl OnLanes for Integrate<'_> {
                     std::array::from_fn(|lane| group[lane.min(group.len() - 1)].into());
                 let bodies: [&StepInput; MOST_LANES] =
                     std::array::from_fn(|lane| &inputs[index[lane]]);
-                let shared = |lane: usize| batched.constants.get(bodies[lane].constants);
                 let first = bodies[0].constants;
+                // All indices are those of this step's preparation, so that none is ever missing.
+                let Some(of_first) = batched.constants.get(first) else {
+                    continue;
+                };
+                let shared = |lane: usize| {
+                    let index = bodies[lane].constants;
+                    batched.constants.get(index).unwrap_or(of_first)
+                };
                 let mixed;
                 let constants = if bodies.iter().any(|input| input.constants != first) {
                     let of = |lane| &shared(lane).step;

@@ -37,11 +37,10 @@ pub(super) fn prepare(
     let index = to.registry.index(handle)?;
     let state = to.registry.at_mut(index)?;
     let body = sets.bodies.get(handle)?;
-    if state.saved.is_none() || state.constants == NONE || !body.is_dynamic() || body.is_sleeping()
-    {
+    if state.saved.is_none() || !body.is_dynamic() || body.is_sleeping() {
         return None;
     }
-    let shared = to.constants.get(state.constants);
+    let shared = to.constants.get(state.constants)?;
     let normal = if to.close.contains(index) {
         contact_mass::normal(shared, body, sets)
     } else {

@@ -8,15 +8,18 @@ use crate::coupling::shared_constants::ConstantsTable;
 use crate::flow::FlowSample;
 use crate::math::{dispatch, row, vector};
 use crate::turbulence::LangevinMode;
+use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::Real;
 
-/// Reads the flow at every body of a batch and adds the turbulence.
+/// Reads the flow at every body of a batch and adds the turbulence. Bodies where the flow is no number are
+/// added to `bad_flows`.
 pub(super) fn sample_fluid(
     environment: &Environment,
     constants: &ConstantsTable,
     context: &StepContext,
     batch: &mut Batch,
     samples: &mut Vec<FlowSample>,
+    bad_flows: &mut Vec<RigidBodyHandle>,
 ) {
     let Batch {
         inputs,
@@ -46,7 +49,8 @@ pub(super) fn sample_fluid(
             }),
             LangevinMode::BodyIncrements => {
                 for (i, input) in inputs.iter_mut().enumerate() {
-                    let length = constants.get(input.constants).constants.length as Real;
+                    let shared = constants.get(input.constants);
+                    let length = shared.map_or(0.0, |shared| shared.constants.length as Real);
                     let relative = vector(input.rapier_linear) - samples[i].velocity;
                     let (linear, angular) = turbulence.increments(
                         input.handle,
@@ -62,8 +66,10 @@ pub(super) fn sample_fluid(
             }
         }
     }
-    for (flow, sample) in flows.iter_mut().zip(samples) {
-        flow.advance(sample);
+    for ((flow, sample), input) in flows.iter_mut().zip(samples).zip(inputs) {
+        if !flow.advance(sample) {
+            bad_flows.push(input.handle);
+        }
     }
 }
 

@@ -94,16 +94,19 @@ impl SeenFlow {
         }
     }
 
-    /// Goes on to this step's flow. Where that is no number the fluid stays as it was.
+    /// Goes on to this step's flow; says whether that is a number. Where it is not, the fluid stays as it
+    /// was.
     #[inline(always)]
-    pub fn advance(&mut self, sample: &FlowSample) {
-        if (sample.velocity + sample.vorticity).is_finite() {
+    pub fn advance(&mut self, sample: &FlowSample) -> bool {
+        let finite = (sample.velocity + sample.vorticity).is_finite();
+        if finite {
             if self.known_before {
                 self.change = row(sample.velocity - vector(self.velocity));
             }
             self.velocity = row(sample.velocity);
             self.vorticity = row(sample.vorticity);
         }
+        finite
     }
 }
 
@@ -126,8 +129,9 @@ pub(in crate::coupling) struct StepOutput {
 #[derive(Clone, Copy)]
 pub(in crate::coupling) struct SavedForces {
     pub handle: RigidBodyHandle,
-    /// Index of the body's state.
+    /// Indices of the body's state and constants.
     pub state: u32,
+    pub constants: u32,
     pub force: Vector,
     pub torque: Vector,
     /// Whether the body is in contact or held.
@@ -220,4 +224,6 @@ pub(in crate::coupling) struct Workspace {
     /// What the bodies had before the step: filled by `before_step`, emptied by `after_step`.
     pub saved_forces: Vec<SavedForces>,
     pub samples: Vec<FlowSample>,
+    /// Bodies at which the flow was no number in this step.
+    pub bad_flows: Vec<RigidBodyHandle>,
 }

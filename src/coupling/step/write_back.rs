@@ -6,7 +6,7 @@ use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::ConstantsTable;
 use crate::math::vector;
-use rapier3d::dynamics::RigidBody;
+use rapier3d::dynamics::{RigidBody, RigidBodySet};
 use rapier3d::math::Vector;
 
 /// Steps of a contact that count as its impact: what the contact did is corrected in these. A velocity
@@ -57,7 +57,7 @@ fn write_body(
         return None;
     }
     let state = registry.at_mut(input.state as usize)?;
-    let shared = constants.get(input.constants);
+    let shared = constants.get(input.constants)?;
     let torque = if state.flight.converts_torque {
         let rapier = &body.mass_properties().local_mprops;
         shared.torque_for(rapier, *body.rotation(), torque)
@@ -67,6 +67,7 @@ fn write_body(
     let saved = SavedForces {
         handle: input.handle,
         state: input.state,
+        constants: input.constants,
         force: body.user_force(),
         torque: body.user_torque(),
         touching: input.may_sleep,
@@ -103,17 +104,21 @@ pub(super) fn finish(
     registry: &mut Registry,
     sets: &mut RapierSets,
 ) {
-    let Some(body) = sets.bodies.get_mut(saved.handle) else {
+    let Some(body) = give_back(saved, sets.bodies) else {
         return;
     };
-    replace_forces(body, saved.force, saved.torque);
     let Some(state) = registry.at_mut(saved.state as usize) else {
         return;
     };
-    if !saved.touching || state.flight.corrected_contacts >= IMPACT {
+    // A user may have changed the set since the step began: the body may have gone, or have another
+    // description or fluid. Its contacts are then left as rapier solved them.
+    let unchanged = state.handle == saved.handle && state.constants == saved.constants;
+    if !unchanged || !saved.touching || state.flight.corrected_contacts >= IMPACT {
         return;
     }
-    let shared = constants.get(state.constants);
+    let Some(shared) = constants.get(state.constants) else {
+        return;
+    };
     let mass = state.flight.solver_mass.into();
     if let Some((linear, angular)) = contact_mass::correction(shared, body, sets.narrow_phase, mass)
     {
@@ -121,6 +126,16 @@ pub(super) fn finish(
         body.set_linvel(body.linvel() + linear, false);
         body.set_angvel(body.angvel() + angular, false);
     }
+}
+
+/// Gives a body's forces back to the user.
+pub(super) fn give_back<'a>(
+    saved: &SavedForces,
+    bodies: &'a mut RigidBodySet,
+) -> Option<&'a mut RigidBody> {
+    let body = bodies.get_mut(saved.handle)?;
+    replace_forces(body, saved.force, saved.torque);
+    Some(body)
 }
 
 fn replace_forces(body: &mut RigidBody, force: Vector, torque: Vector) {

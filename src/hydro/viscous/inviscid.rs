@@ -22,6 +22,12 @@ impl InviscidConstants<f64> {
     }
 }
 
+impl InviscidConstants<f32> {
+    pub fn is_finite(&self) -> bool {
+        true
+    }
+}
+
 impl<S: Simd> InviscidConstants<Lanes<S>> {
     #[inline(always)]
     pub fn splat(_simd: S, _constants: &InviscidConstants<f32>) -> Self {

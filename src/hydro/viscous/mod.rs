@@ -178,6 +178,15 @@ macro_rules! prepared_laws {
             }
         }
 
+        impl PreparedLaw<f32> {
+            /// Whether every constant is a finite number.
+            pub fn is_finite(&self) -> bool {
+                match self {
+                    $(Self::$variant(law) => law.is_finite(),)+
+                }
+            }
+        }
+
         impl<S: Simd> PreparedLaw<Lanes<S>> {
             /// The same constants in every lane.
             #[inline(always)]

@@ -266,6 +266,13 @@ impl PlateConstants<f64> {
     }
 }
 
+impl PlateConstants<f32> {
+    /// Whether every constant is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.0.is_finite()
+    }
+}
+
 impl<S: Simd> PlateConstants<Lanes<S>> {
     /// The same constants in every lane.
     #[inline(always)]

@@ -1,0 +1,114 @@
+//! Whether what a shape's properties say can be true: they are plain data, which a user may have changed or
+//! a file may have held.
+
+use super::HydroProperties;
+use crate::error::Error;
+
+impl HydroProperties {
+    /// Checks every number.
+    ///
+    /// ```
+    /// use rapier3d_immersed::HydroProperties;
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// let mut ball = HydroProperties::from_shape(&Ball::new(0.1))?;
+    /// assert!(ball.check().is_ok());
+    /// ball.volume = -1.0;
+    /// assert!(ball.check().unwrap_err().to_string().contains("displaced volume"));
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::InvalidParameter`], [`Error::OutOfRange`], [`Error::NotFinite`] or
+    /// [`Error::UnphysicalAddedMass`] names the first that cannot be.
+    pub fn check(&self) -> Result<(), Error> {
+        Error::check_positive("displaced volume", self.volume)?;
+        Error::check_all_finite("center of buoyancy", self.centroid.as_slice())?;
+        Error::check_all_finite("reference point", self.reference.as_slice())?;
+        if !self.added_mass.is_physical() {
+            return Err(Error::UnphysicalAddedMass);
+        }
+        let plate = &self.planform;
+        let axes = plate.axes.matrix();
+        let skewness = (axes * axes.transpose()).map_with_location(|i, j, x| {
+            let identity = if i == j { 1.0 } else { 0.0 };
+            (x - identity).abs()
+        });
+        let rotation = skewness.max() < 1e-6 && axes.determinant() > 0.0;
+        Error::check("planform axes", skewness.max(), rotation, "a rotation")?;
+        Error::check_all_finite("planform center", plate.center.as_slice())?;
+        Error::check_positive("planform area", plate.area)?;
+        for extent in plate.half_extents.iter() {
+            Error::check_positive("planform half extent", *extent)?;
+        }
+        Error::check_not_negative("planform thickness", plate.thickness)?;
+        for moment in plate.second_moment.iter().chain(&plate.third_moment) {
+            Error::check_not_negative("planform moment", *moment)?;
+        }
+        let semi_axes = &self.proxy.semi_axes;
+        for semi_axis in semi_axes.iter() {
+            Error::check_not_negative("proxy semi-axis", *semi_axis)?;
+        }
+        // An elliptic disc has one semi-axis of zero; what has two shows no shadow at all.
+        let positive = semi_axes.iter().filter(|semi_axis| **semi_axis > 0.0);
+        let count = positive.count();
+        let enough = count >= 2;
+        Error::check(
+            "proxy semi-axes above zero",
+            count as f64,
+            enough,
+            "at least two",
+        )?;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rapier3d::parry::shape::Cuboid;
+
+    /// Each field in turn is made what it cannot be, by every value that cannot be.
+    #[test]
+    fn each_field_is_checked() {
+        let half = rapier3d::math::Vector::new(0.04, 0.001, 0.02);
+        let good = HydroProperties::from_shape(&Cuboid::new(half)).unwrap();
+        good.check().unwrap();
+        let fields: [(&str, fn(&mut HydroProperties) -> &mut f64, &[f64]); 12] = [
+            ("volume", |h| &mut h.volume, &[0.0, -1.0]),
+            ("centroid", |h| &mut h.centroid.x, &[]),
+            ("reference", |h| &mut h.reference.y, &[]),
+            ("added mass", |h| &mut h.added_mass.linear[(0, 0)], &[-1.0]),
+            ("center", |h| &mut h.planform.center.z, &[]),
+            ("area", |h| &mut h.planform.area, &[0.0, -1.0]),
+            (
+                "half extent",
+                |h| &mut h.planform.half_extents.y,
+                &[0.0, -1.0],
+            ),
+            ("thickness", |h| &mut h.planform.thickness, &[-1.0]),
+            (
+                "second moment",
+                |h| &mut h.planform.second_moment.x,
+                &[-1.0],
+            ),
+            ("third moment", |h| &mut h.planform.third_moment.y, &[-1.0]),
+            ("x", |h| &mut h.proxy.semi_axes.x, &[-1.0]),
+            ("z", |h| &mut h.proxy.semi_axes.z, &[-1.0]),
+        ];
+        for (name, field, values) in fields {
+            for value in values.iter().chain(&[f64::NAN, f64::INFINITY]) {
+                let mut bad = good.clone();
+                *field(&mut bad) = *value;
+                assert!(bad.check().is_err(), "{name} {value}");
+            }
+        }
+        let mut point = good.clone();
+        point.proxy.semi_axes *= 0.0;
+        assert!(point.check().is_err());
+        let mut skewed = good.clone();
+        skewed.planform.axes =
+            rapier3d::na::Rotation3::from_matrix_unchecked(skewed.planform.axes.matrix() * 2.0);
+        assert!(skewed.check().is_err());
+    }
+}
