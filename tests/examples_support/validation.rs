@@ -39,10 +39,17 @@ fn sections_with_exact_answers_are_met() {
     }
 }
 
-/// The measured falls run with every runner; whether their bars are met is the table's to say.
+/// The measured falls run with every runner and come out near what was measured, and near each other:
+/// speeds of descent within a third, about the widest scatter of the measured drops themselves (.215 of
+/// .772 m/s), and agreement with the map of discs above three fifths, where there are four classes. Whether
+/// their bars are met is the table's to say: means of two or three releases scatter.
 #[test]
 fn measured_falls_are_compared() {
-    for name in [SectionName::Plates, SectionName::Discs, SectionName::Papers] {
+    for (name, speeds) in [
+        (SectionName::Plates, 10),
+        (SectionName::Discs, 0),
+        (SectionName::Papers, 13),
+    ] {
         let section = quick(name);
         assert!(section.rows.len() > 15, "{}", section.rows.len());
         assert_eq!(section.pictures.len(), 1);
@@ -50,19 +57,38 @@ fn measured_falls_are_compared() {
             let mut rows = section.rows.iter().filter(|row| row.case.ends_with(runner));
             assert!(rows.any(|row| matches!(row.ours, Quantity::Number(x, _) if x.is_finite())));
         }
+        let mut compared = 0;
+        for row in &section.rows {
+            if [", descent,", "mean descent"]
+                .iter()
+                .any(|what| row.case.contains(what))
+            {
+                assert!(row.error.unwrap().abs() < 1.0 / 3.0, "{row:?}");
+                compared += 1;
+            }
+            if row.case.contains("agreement with the map") {
+                assert!(matches!(row.ours, Quantity::Number(share, "%") if share > 60.0));
+            }
+        }
+        assert_eq!(compared, speeds, "{}", section.title);
     }
 }
 
-/// In rapier as well as alone: the seed spins from the one or the other release.
+/// In rapier as well as alone: the seed spins from the one or the other release, and by a factor of 1.5 at
+/// most beside the .8 to 1 m/s and the 80 to 130 rad/s of real samaras (Azuma & Yasuda 1989). Whether it is
+/// within these is the table's to say.
 #[test]
 fn the_seed_is_compared() {
     let section = quick(SectionName::Seed);
     assert_eq!(section.rows.len(), 9);
-    let alone = &section.rows[0];
-    assert!(
-        matches!(alone.ours, Quantity::Number(share, "%") if share > 0.0),
-        "{alone:?}"
-    );
+    for rows in section.rows.chunks(3) {
+        for (row, [low, high]) in rows.iter().zip([[1.0, 100.0], [0.8, 1.0], [80.0, 130.0]]) {
+            let Quantity::Number(ours, _) = row.ours else {
+                panic!("{row:?}");
+            };
+            assert!((low / 1.5..=high * 1.5).contains(&ours), "{row:?}");
+        }
+    }
 }
 
 /// A fall in rapier is recorded from its release on like the stand-alone one, and is the same at first.
