@@ -78,6 +78,17 @@ fn the_card_under_the_thesis_law() {
     let kappa = (agreement - chance) / (1.0 - chance);
     println!("agreement {agreement:.3}, by chance {chance:.3}, at most {highest:.3}; κ {kappa:.2}");
     assert!(agreement > highest, "{agreement} {highest}");
+    // No two names of clusters could be exchanged, by three standard deviations of the counts, but for those
+    // of the two patterns with rotation, of which one shows in a single fall.
+    let table = clusters.confusion(&samples);
+    for (a, b) in [(0, 1), (0, 2), (0, 3), (1, 3), (2, 3)] {
+        let (named, exchanged) = (table[a][a] + table[b][b], table[a][b] + table[b][a]);
+        let error = ((named + exchanged) as f64).sqrt();
+        assert!(
+            named as f64 - exchanged as f64 > 3.0 * error,
+            "{a} {b}: {table:?}"
+        );
+    }
     // Thesis Fig. 5.7: d is 1.25 cm of steady descent, 5.69 of the zigzag, 13.7 of what is between it and
     // autorotation (which one fall in 729 shows here). Mann and Whitney's test on the ranks.
     for (near, far) in [

@@ -308,17 +308,30 @@ fn bad_systems_are_errors() {
         change(&mut system);
         evolve(&system, &time, &params(1, 1.0, 0), |_, _| ()).unwrap_err()
     };
-    for error in [
-        refused(|s| s.components = 0),
-        refused(|s| s.rates[0].component = 3),
-        refused(|s| s.rates[1].states[0] = 7),
-        refused(|s| s.rates[1].states.push(1)),
-        refused(|s| s.rates[0].coefficient = f64::NAN),
-        refused(|s| s.initial[0].parameters[0] = (3, |x| x)),
-        refused(|s| s.parameters[0] = s.parameters[0].clone().with_zero_start()),
-        refused(|s| s.initial[0].parameters[0] = (0, |x| 1.0 / x)),
+    for (culprit, error) in [
+        ("components", refused(|s| s.components = 0)),
+        ("component of a rate", refused(|s| s.rates[0].component = 3)),
+        ("state of a rate", refused(|s| s.rates[1].states[0] = 7)),
+        ("degree of a rate", refused(|s| s.rates[1].states.push(1))),
+        (
+            "coefficient of a rate",
+            refused(|s| s.rates[0].coefficient = f64::NAN),
+        ),
+        (
+            "parameter of a term",
+            refused(|s| s.initial[0].parameters[0] = (3, |x| x)),
+        ),
+        (
+            "nodes of a parameter's axis",
+            refused(|s| s.parameters[0] = s.parameters[0].clone().with_zero_start()),
+        ),
+        (
+            "function of a parameter",
+            refused(|s| s.initial[0].parameters[0] = (0, |x| 1.0 / x)),
+        ),
     ] {
-        println!("{error}");
+        let text = error.to_string();
+        assert!(text.contains(culprit), "{culprit}: {text}");
     }
     // Time axes that are not Radau axes from zero.
     let system = coupled_triple(&axis);

@@ -354,7 +354,6 @@ mod tests {
         };
         let angle = mean(&|a, b| (b[2] - a[2]) * (b[0] - a[0]).signum() / 2.0);
         let slope = mean(&|a, b| (b[0] - a[0]).abs()) / mean(&|a, b| a[1] - b[1]);
-        println!("{angle} {slope} {curve:?} {}", turns.len());
         // A turn is found to a step of 4 ms of a swing of some hundred.
         close(curve.angles[16], angle, 0.02 * angle);
         close(curve.slope, slope, 0.02 * slope);
