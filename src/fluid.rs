@@ -3,7 +3,17 @@
 use crate::error::Error;
 use rapier3d::math::Real;
 
-/// A homogeneous Newtonian fluid.
+/// A homogeneous Newtonian fluid: what an [`Immersion`](crate::Immersion) or a
+/// [`FreeBody`](crate::FreeBody) moves in.
+///
+/// ```
+/// use rapier3d_immersed::Fluid;
+///
+/// let glycerol = Fluid::new(1258.0, 1.12e-3)?; // kg/m³, m²/s at 20 °C
+/// assert!((glycerol.dynamic_viscosity() - 1.41).abs() < 0.01); // Pa·s
+/// assert_eq!(Fluid::WATER.density(), 997.0);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",

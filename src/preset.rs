@@ -13,11 +13,11 @@
 //!
 //! The rule behind it: contacts at about 480 Hz need four substeps per period, that is 1920 substeps
 //! per second. The bench `pile` lays 1000 such leaves into a tray of 0.4 × 0.4 m in tidy layers, which
-//! pack closer than the leaves of the table, that fell: under rapier's defaults they collapse to 1 mm
+//! pack closer than the leaves of the table, which fell: under rapier's defaults they collapse to 1 mm
 //! (95th percentile of the heights); under [`leaf_scale`] they hold 13 mm and come to rest (0.3 mm/s
 //! root mean square after 4 s; 0.8 mm/s without the fluid), at 1.4 times the cost of the same pile
-//! without the fluid. That is too lively for rapier's sleep threshold of 1 mm/s for *every* leaf of an
-//! island; looser heaps, as in the example `falling_leaves`, do fall asleep.
+//! without the fluid. That is too much motion for rapier's sleep threshold, which asks for less than
+//! 1 mm/s of *every* leaf of an island; looser heaps, as in the example `falling_leaves`, do fall asleep.
 
 use rapier3d::dynamics::{IntegrationParameters, RigidBodyBuilder, SpringCoefficients};
 
@@ -29,6 +29,17 @@ pub const LEAF_DT: f32 = 1.0 / 240.0;
 /// Sets `dt` to [`LEAF_DT`] with 8 substeps, `length_unit` to a centimeter (which scales slop,
 /// prediction distance and sleep threshold), contacts to 480 Hz, and the speed limit back to the
 /// 400 m/s that the small length unit would lower to 4.
+///
+/// ```
+/// use rapier3d_immersed::preset;
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// let mut world = PhysicsWorld::new();
+/// preset::leaf_scale(&mut world.integration_parameters);
+/// assert_eq!(world.integration_parameters.dt, preset::LEAF_DT);
+/// // 5 mm of allowed penetration become 0.05 mm, a sixth of a leaf's thickness.
+/// assert!((world.integration_parameters.allowed_linear_error() - 5e-5).abs() < 1e-9);
+/// ```
 pub fn leaf_scale(parameters: &mut IntegrationParameters) {
     let contacts = SpringCoefficients {
         natural_frequency: 480.0,
@@ -45,8 +56,18 @@ pub fn leaf_scale(parameters: &mut IntegrationParameters) {
     parameters.normalized_max_linear_velocity = 400.0 / parameters.length_unit;
 }
 
-/// A body builder with the predictive contacts that thin bodies need against each other, where
-/// rapier has no continuous collision detection: 5 mm.
+/// A body builder with the predictive contacts (5 mm) that thin bodies need against each other, where
+/// rapier has no continuous collision detection.
+///
+/// ```
+/// use rapier3d_immersed::preset;
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// let mut world = PhysicsWorld::new();
+/// let leaf = ColliderBuilder::cuboid(0.0365, 0.00015, 0.021).density(300.0);
+/// let (leaf, _) = world.insert(preset::leaf_body(RigidBodyBuilder::dynamic()), leaf);
+/// assert_eq!(world.bodies[leaf].soft_ccd_prediction(), 0.005);
+/// ```
 pub fn leaf_body(builder: RigidBodyBuilder) -> RigidBodyBuilder {
     builder.soft_ccd_prediction(0.005)
 }

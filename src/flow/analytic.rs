@@ -7,6 +7,17 @@ use rapier3d::math::{Real, Vector};
 /// A flow whose velocity changes linearly across one direction: U = velocity + rate · (x − origin)·across.
 ///
 /// It turns a body that follows it at half the vorticity, across × rate.
+///
+/// ```
+/// use rapier3d_immersed::flow::{Flow, Shear};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// // A wind along x that gains 0.5 m/s per meter of height.
+/// let wind = Shear { across: Vector::Y, rate: Vector::X * 0.5, ..Shear::default() };
+/// assert_eq!(wind.velocity(Vector::Y * 4.0, 0.0), Vector::X * 2.0);
+/// // A ball that it carries along rolls forward, about −z.
+/// assert_eq!(wind.vorticity(Vector::Y * 4.0, 0.0), Vector::Z * -0.5);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shear {
     /// A point where the fluid moves with `velocity`, m.
@@ -15,8 +26,8 @@ pub struct Shear {
     pub velocity: Vector,
     /// Direction along which the velocity changes; a unit vector.
     pub across: Vector,
-    /// How much the velocity changes per meter along `across`, 1/s. Perpendicular to `across` in
-    /// an incompressible flow.
+    /// How much the velocity changes per meter along `across`, 1/s. In an incompressible flow it is
+    /// perpendicular to `across`.
     pub rate: Vector,
 }
 
@@ -32,7 +43,20 @@ impl Flow for Shear {
 
 /// A Lamb–Oseen vortex: u_θ = Γ/(2πr) (1 − exp(−r²/r_c²)), finite on its axis.
 ///
-/// Source: Lamb, Hydrodynamics, §334a. Not decaying: `core_radius` is √(4νt) of one instant.
+/// Source: Lamb, Hydrodynamics, §334a. The vortex does not decay: `core_radius` is √(4νt) of one instant.
+///
+/// ```
+/// use rapier3d_immersed::flow::{Flow, Vortex};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// let vortex = Vortex::new(Vector::ZERO, Vector::Y, 1.0, 0.05)?;
+/// // Far outside of the core it turns like a line vortex, with Γ/(2πr).
+/// let speed = vortex.velocity(Vector::X, 0.0).length();
+/// assert!((speed - 1.0 / std::f32::consts::TAU).abs() < 1e-6);
+/// // It rests on its axis.
+/// assert_eq!(vortex.velocity(Vector::Y, 0.0), Vector::ZERO);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vortex {
     center: Vector,
@@ -106,13 +130,25 @@ impl Flow for Vortex {
 /// A gust that rises and falls smoothly once, ½ V (1 − cos 2πτ), the "1-cos" gust of airworthiness rules.
 ///
 /// τ = (t − start − slowness·x)/duration, and the flow is still outside 0 < τ < 1.
+///
+/// ```
+/// use rapier3d_immersed::flow::{Flow, Gust};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// // A gust of 8 m/s whose front travels along x at 10 m/s and that lasts for 2 s.
+/// let gust = Gust { velocity: Vector::Y * 8.0, start: 0.0, duration: 2.0, slowness: Vector::X / 10.0 };
+/// // It peaks at the origin after 1 s, and ten meters downwind one second later.
+/// assert!((gust.velocity(Vector::ZERO, 1.0).y - 8.0).abs() < 1e-5);
+/// assert!((gust.velocity(Vector::X * 10.0, 2.0).y - 8.0).abs() < 1e-5);
+/// assert_eq!(gust.velocity(Vector::ZERO, 2.5), Vector::ZERO);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gust {
     /// Velocity at the peak, m/s.
     pub velocity: Vector,
     /// When the gust reaches the world's origin, s.
     pub start: f64,
-    /// How long it lasts at one point, s. Still everywhere unless positive.
+    /// How long it lasts at one point, s. Unless this is positive, the flow is still everywhere.
     pub duration: f64,
     /// Direction in which the gust front travels, divided by its speed, s/m. Zero (the default)
     /// for a gust that is everywhere at once.
@@ -160,7 +196,7 @@ mod tests {
     use super::*;
     use crate::flow::tests::{assert_curl_matches, points};
 
-    /// The vorticity of each flow against central differences of its velocity.
+    /// The vorticity of each flow agrees with central differences of its velocity.
     #[test]
     fn vorticity_is_the_curl_of_the_velocity() {
         let shear = Shear {
@@ -198,7 +234,7 @@ mod tests {
             }
             let found = sum / steps as f32 * core::f32::consts::TAU * radius;
             let exact = 2.0 * (1.0 - (-radius * radius / 0.25).exp());
-            // f32 rounding of a 256-term sum.
+            // The tolerance is the rounding of a sum of 256 terms in f32.
             assert!((found - exact).abs() < 1.0e-5 * 2.0, "{found} {exact}");
         }
     }

@@ -1,4 +1,4 @@
-//! Cells of a lattice around many points, several side by side: what a batch of look-ups shares.
+//! The cells of a lattice around several points at once, one point per lane: batches of look-ups use it.
 
 use super::lattice::{FAR, Lattice};
 use crate::math::{Lanes, MOST_LANES, Row, Scalar};
@@ -6,7 +6,7 @@ use fearless_simd::{Simd, SimdBase, f32x4, f32x8};
 use rapier3d::math::Vector;
 use std::ops::{Add, Mul, Sub};
 
-/// A lattice in every lane.
+/// A [`Lattice`] whose constants are held in every lane.
 pub(crate) struct Cells<S: Simd> {
     simd: S,
     axes: [Axis<Lanes<S>>; 3],
@@ -15,7 +15,7 @@ pub(crate) struct Cells<S: Simd> {
     flat: bool,
 }
 
-/// One axis of it.
+/// One axis of the lattice.
 struct Axis<T> {
     origin: T,
     per_spacing: T,
@@ -47,14 +47,14 @@ struct Plane<V> {
     dy: V,
 }
 
-/// What is kept at a node, as the numbers that are interpolated side by side.
+/// What a node holds, as a register of numbers that are interpolated together.
 pub(crate) trait Node: Copy {
-    /// The registers of these numbers.
+    /// The register that holds these numbers.
     type Numbers<S: Simd>: Copy
         + Add<Output = Self::Numbers<S>>
         + Sub<Output = Self::Numbers<S>>
         + Mul<f32, Output = Self::Numbers<S>>;
-    /// Loads them.
+    /// Loads the numbers into the register.
     fn load<S: Simd>(&self, simd: S) -> Self::Numbers<S>;
 }
 
@@ -79,7 +79,7 @@ impl Node for Pair {
     }
 }
 
-/// The largest whole number that is not larger than x, |x| ≤ [`FAR`], as the lattice's own.
+/// The largest whole number that is not larger than x, for |x| ≤ [`FAR`], as `floor` of the lattice.
 #[inline(always)]
 fn floor<T: Scalar>(x: T) -> T {
     let shift = x.constant(12_582_912.0);
@@ -98,7 +98,7 @@ impl<T: Scalar> Axis<T> {
             let turns = turns.select_lt(turns.abs(), far, zero);
             x = (turns - floor(turns)) * nodes;
         }
-        // NaN becomes zero.
+        // A comparison with NaN is false, so that NaN becomes zero.
         let x = x.select_lt(zero, x, zero);
         let x = x.min(self.end);
         let below = floor(x).min(self.last);
@@ -160,7 +160,7 @@ impl<S: Simd> Cells<S> {
                 value: low.value,
                 dx: low.dx * dx,
                 dy: low.dy * dy,
-                // Node values are finite.
+                // A product instead of a constant zero: node values are finite.
                 dz: low.value * 0.0,
             };
         }
@@ -259,8 +259,8 @@ mod tests {
         samples
     }
 
-    /// To the bit: what is found at a point depends neither on the points beside it nor on the machine's
-    /// registers, and up to rounding it is what is found there alone.
+    /// What is found at a point depends, to the bit, neither on the points beside it nor on the machine's
+    /// registers, and it is what the scalar look-up finds up to rounding.
     #[test]
     fn a_point_is_looked_up_alike_alone_and_among_others() {
         let flows: &[Box<dyn Flow>] = &[
@@ -286,13 +286,13 @@ mod tests {
             for (point, sample) in points.iter().zip(&together) {
                 assert_eq!(sampled(&**flow, &[*point]), [*sample]);
                 let velocity = flow.velocity(*point, 0.7);
-                // A few roundings of numbers of about 5.
+                // The tolerance is a few roundings of numbers of about 5.
                 assert!((velocity - sample.velocity).length() < 1.0e-5, "{point}");
             }
         }
     }
 
-    /// Far away, and where there is no place at all.
+    /// Points far away, infinite or not a number have a finite flow.
     #[test]
     fn any_point_has_a_flow() {
         let wild = [1.0e30, -1.0e30, f32::MAX, f32::INFINITY, f32::NAN, 1.0e9];

@@ -12,12 +12,25 @@ use rapier3d::math::Vector;
 ///
 /// Outside, the flow is that of the nearest node, or repeats along the periodic axes. The vorticity
 /// is that of the interpolated field: piecewise, and as coarse as the grid.
+///
+/// ```
+/// use rapier3d_immersed::flow::{Flow, GridFlow};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// // Two nodes along x, a meter apart; along y and z the flow is uniform.
+/// let velocities = [Vector::ZERO, Vector::Y * 2.0];
+/// let clamped = [false; 3];
+/// let flow = GridFlow::new([2, 1, 1], clamped, Vector::ZERO, Vector::ONE, &velocities)?;
+/// assert_eq!(flow.velocity(Vector::X * 0.5, 0.0), Vector::Y);
+/// assert_eq!(flow.velocity(Vector::X * 9.0, 0.0), Vector::Y * 2.0);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridFlow {
     lattice: Lattice,
     nodes: Vec<Row>,
-    /// Velocity with which the whole pattern is carried along, m/s (Taylor's frozen field). The
-    /// node velocities are not changed by it: add the mean wind to them yourself.
+    /// Velocity with which the whole pattern is carried along, m/s (Taylor's frozen field). It does
+    /// not change the node velocities, to which you add the mean wind yourself.
     pub drift: Vector,
 }
 
@@ -63,7 +76,20 @@ impl GridFlow {
     /// Samples `flow` at the nodes of a grid: a costly flow of your own turned into a cheap one.
     ///
     /// # Errors
-    /// As [`GridFlow::new`], also if `flow` returns a velocity that is not finite.
+    /// Those of [`GridFlow::new`], also if `flow` returns a velocity that is not finite.
+    ///
+    /// ```
+    /// use rapier3d_immersed::flow::{Flow, GridFlow, Vortex};
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// let vortex = Vortex::new(Vector::ZERO, Vector::Z, 1.0, 0.5)?;
+    /// let (corner, spacing) = (Vector::new(-2.0, -2.0, 0.0), Vector::splat(0.05));
+    /// let grid = GridFlow::sampled(&vortex, 0.0, [81, 81, 1], [false; 3], corner, spacing)?;
+    /// let between = Vector::new(0.97, 0.33, 5.0); // no node is here
+    /// let error = grid.velocity(between, 0.0) - vortex.velocity(between, 0.0);
+    /// assert!(error.length() < 1e-3);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn sampled(
         flow: &dyn Flow,
         time: f64,
@@ -96,9 +122,19 @@ impl GridFlow {
             .map(|node| Vector::new(node[0], node[1], node[2]))
     }
 
-    /// The file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
+    /// The bytes of a file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
     /// then the dimensions and a bit mask of periodic axes (`u64`), origin, spacing, drift (`f64`),
     /// velocities (`f32`); all little-endian.
+    ///
+    /// ```
+    /// use rapier3d_immersed::flow::GridFlow;
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// let flow = GridFlow::new([1; 3], [true; 3], Vector::ZERO, Vector::ONE, &[Vector::X])?;
+    /// let bytes = flow.to_bytes(); // std::fs::write(path, &bytes)
+    /// assert_eq!(GridFlow::from_bytes(&bytes)?, flow);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut file = Writer::default();
         for n in self.lattice.dims {
@@ -198,7 +234,7 @@ impl Flow for GridFlow {
     }
 }
 
-/// A batch of look-ups.
+/// A batch of points, to be looked up in lanes.
 struct Batch<'a> {
     flow: &'a GridFlow,
     carried: Vector,

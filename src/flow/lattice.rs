@@ -9,8 +9,8 @@ pub(crate) const MAX_NODES: u64 = 1 << 16;
 
 /// Where the nodes are. Node (i, j, k) is at `origin + (i, j, k)·spacing`.
 ///
-/// Node values are stored [padded](Lattice::pad): every periodic or one-node axis has its first node once more
-/// at its end, so that the nodes of a cell are always neighbors in memory.
+/// Node values are stored [padded](Lattice::pad): every periodic or one-node axis has its first node once
+/// more at its end, so that the nodes of a cell are always neighbors in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lattice {
     pub dims: [usize; 3],
@@ -21,7 +21,7 @@ pub(crate) struct Lattice {
     lanes: Lanes,
 }
 
-/// The same as four-lane constants, so that the three axes are bracketed at once.
+/// The lattice as four-lane constants, so that the three axes are bracketed at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lanes {
     pub origin: Vec4,
@@ -42,10 +42,10 @@ pub(crate) struct Cell {
     flat: bool,
 }
 
-/// Whole numbers from here on are not told apart from their neighbours by f64: sums with it round.
+/// 1.5·2⁵²: f64 has no fractions here, so that a sum with it rounds to a whole number.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
-/// `x` as a whole number and a rest within ±½. What is not smaller than 2⁵¹, NaN too, counts as zero.
+/// `x` as a whole number and a rest within ±½. NaN and what is not smaller than 2⁵¹ count as zero.
 #[inline(always)]
 fn split(x: f64) -> (f64, f64) {
     if x.abs() < WHOLE / 3.0 {
@@ -63,7 +63,7 @@ pub(crate) fn wrap(x: f64, period: f64) -> f64 {
     fraction(x / period) * period
 }
 
-/// `turns` less its whole number, within ±½.
+/// `turns` without its whole number, within ±½.
 #[inline(always)]
 pub(super) fn fraction(turns: f64) -> f64 {
     split(turns).1
@@ -76,7 +76,7 @@ pub(super) fn cos_sin(turns: f64) -> [Real; 2] {
     let (quarters, rest) = split(4.0 * turns);
     let x = rest * core::f64::consts::FRAC_PI_2;
     let x2 = x * x;
-    // Taylor series; |x| ≤ π/4.
+    // These are Taylor's series for |x| ≤ π/4.
     const PER_FACTORIAL: [f64; 8] = [
         -1.0 / 2.0,
         -1.0 / 6.0,
@@ -99,12 +99,12 @@ pub(super) fn cos_sin(turns: f64) -> [Real; 2] {
     [cos as Real, sin as Real]
 }
 
-/// From here on f32 has no fractions of a period left that matter.
+/// Beyond this number of periods, f32 has too few digits left for fractions of one to matter.
 pub(super) const FAR: Real = 4_194_304.0;
 
-/// The largest whole number that is not larger than x, |x| ≤ [`FAR`]: so large a sum as `shift` has no
-/// room for a fraction. Where SSE 4.1 cannot be taken for granted, several times cheaper than the
-/// library's.
+/// The largest whole number that is not larger than x, for |x| ≤ [`FAR`]: a sum as large as `shift` has no
+/// room for a fraction. Where SSE 4.1 cannot be taken for granted, this is several times cheaper than the
+/// library's `floor`.
 #[inline(always)]
 fn floor(x: Vec4) -> Vec4 {
     let shift = Vec4::splat(12_582_912.0);

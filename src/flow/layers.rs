@@ -1,10 +1,19 @@
-//! Flows on top of each other.
+//! The sum of several flows, and a flow that several owners share.
 
 use super::{Flow, FlowSample};
 use rapier3d::math::Vector;
 use std::sync::Arc;
 
 /// The sum of several flows: a gust over a mean wind, a turbulent field over either.
+///
+/// ```
+/// use rapier3d_immersed::flow::{Flow, Layers, Shear, Uniform};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// let shear = Shear { across: Vector::Y, rate: Vector::Z, ..Shear::default() };
+/// let flow = Layers::new().with(Uniform::new(1.0, 0.0, 0.0)).with(shear);
+/// assert_eq!(flow.velocity(Vector::Y * 2.0, 0.0), Vector::new(1.0, 0.0, 2.0));
+/// ```
 #[derive(Default)]
 pub struct Layers {
     /// The flows whose velocities and vorticities are added up.
@@ -12,7 +21,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Still fluid, to be layered upon with [`Layers::with`].
+    /// Fluid at rest, to which [`Layers::with`] adds flows.
     pub fn new() -> Self {
         Self::default()
     }
@@ -25,7 +34,7 @@ impl Layers {
     }
 }
 
-/// Bodies sampled at once, so that what the layers add up fits on the stack.
+/// How many points are sampled at once, so that one layer's samples fit on the stack.
 const CHUNK: usize = 64;
 
 impl Flow for Layers {
@@ -98,7 +107,7 @@ mod tests {
         assert!((at - Vector::new(5.0, 2.0, 4.0)).length() < 1.0e-6);
         assert_curl_matches(&flow, Vector::new(1.0, 2.0, 3.0), 0.3);
 
-        // More points than one chunk, into samples that hold rubbish.
+        // There are more points than one chunk holds, and the samples are not zero before.
         let points: Vec<_> = (0..150).map(|i| Vector::Y * i as f32).collect();
         let mut samples = vec![
             FlowSample {

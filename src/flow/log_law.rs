@@ -6,11 +6,24 @@ use rapier3d::math::{Real, Vector};
 use rapier3d::na::ComplexField;
 
 /// von Kármán's constant, 0.40 (the thesis's and the usual value; measured 0.38 to 0.42).
-pub const VON_KARMAN: Real = 0.40;
+pub(super) const VON_KARMAN: Real = 0.40;
 
 /// Mean wind over rough ground: U(h) = (u*/κ) ln(h/z₀), zero at and below z₀ (thesis (3.14)).
 ///
 /// `h` is the height above ground less the displacement height of what grows on it.
+///
+/// ```
+/// use rapier3d_immersed::flow::{Flow, LogLaw};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// // 4 m/s at a height of 10 m, over ground of roughness length 0.3 m.
+/// let wind = LogLaw::new(Vector::X, Vector::Y, 4.0, 10.0, 0.3)?;
+/// assert!((wind.velocity(Vector::Y * 10.0, 0.0).x - 4.0).abs() < 1e-5);
+/// // Three quarters of the logarithm's way down, at 0.3·(10/0.3)^¼ m, a quarter of it is left.
+/// assert!((wind.speed(0.3 * (10.0_f32 / 0.3).powf(0.25)) - 1.0).abs() < 1e-5);
+/// assert_eq!(wind.speed(0.3), 0.0);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogLaw {
     direction: Vector,
@@ -89,8 +102,8 @@ impl LogLaw {
         }
     }
 
-    /// Turbulent kinetic energy of the equilibrium layer, u*²/√C_μ = 3.33 u*², m²/s²
-    /// (measured in the field: 5.5 u*², with the inactive large eddies).
+    /// Turbulent kinetic energy of the equilibrium layer, u*²/√C_μ = 3.33 u*², m²/s². Measurements in
+    /// the field find 5.5 u*², which includes the inactive large eddies.
     pub fn turbulent_kinetic_energy(&self) -> Real {
         self.friction_velocity * self.friction_velocity / 0.3
     }

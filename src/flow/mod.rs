@@ -1,4 +1,31 @@
-//! The motion of the fluid itself: what the bodies are immersed *in*.
+//! The motion of the fluid itself: velocity fields, to be given to an
+//! [`Immersion`](crate::Immersion) with [`set_flow`](crate::Immersion::set_flow).
+//!
+//! [`Uniform`], [`Shear`], [`Vortex`] and [`Gust`] have closed forms and cost next to nothing; [`LogLaw`]
+//! is the mean wind over ground. [`GridFlow`] looks up a field that was computed elsewhere, and
+//! [`SpectralWind`] a gusty wind of a prescribed spectrum. [`Layers`] adds several of them up, and any other
+//! field implements [`Flow`]. Fluctuations that are too fine for any field are turbulence: see
+//! [`turbulence`](crate::turbulence).
+//!
+//! ```
+//! use rapier3d_immersed::flow::{Flow, Gust, Layers, LogLaw};
+//! use rapier3d_immersed::rapier3d::prelude::*;
+//! use rapier3d_immersed::{Fluid, Immersion};
+//!
+//! // 4 m/s at a height of 10 m over rough ground, and a gust of 2 m/s that lasts from 3 to 5 s.
+//! let wind = LogLaw::new(Vector::X, Vector::Y, 4.0, 10.0, 0.3)?;
+//! let gust = Gust { velocity: Vector::X * 2.0, start: 3.0, duration: 2.0, ..Gust::default() };
+//! let flow = Layers::new().with(wind).with(gust);
+//! assert!((flow.velocity(Vector::Y * 10.0, 4.0).x - 6.0).abs() < 1e-5);
+//!
+//! let mut immersion = Immersion::new(Fluid::AIR);
+//! immersion.set_flow(flow);
+//! # Ok::<(), rapier3d_immersed::Error>(())
+//! ```
+//!
+//! A new flow touches two files: its own and this one. Its own implements [`Flow`], with the vorticity and,
+//! where a batch is cheaper than its points, [`Flow::sample`]; this one declares the module and re-exports
+//! the type.
 
 mod analytic;
 mod cells;
@@ -34,13 +61,41 @@ pub struct FlowSample {
 /// A velocity field: the one trait that users implement.
 ///
 /// Bodies feel the flow at their center of mass. All quantities are in world axes and SI units;
-/// `time` is the time of the [immersion](crate), in seconds since it was created.
+/// `time` is the time of the [immersion](crate::Immersion::time), in seconds since it was created.
+///
+/// ```
+/// use rapier3d_immersed::flow::Flow;
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+///
+/// /// Water that flows in over the bottom of a tank and rises toward its middle.
+/// struct Upwelling;
+///
+/// impl Flow for Upwelling {
+///     fn velocity(&self, point: Vector, _time: f64) -> Vector {
+///         Vector::new(-0.5 * point.x, point.y, -0.5 * point.z)
+///     }
+/// }
+///
+/// let mut world = PhysicsWorld::new();
+/// let body = RigidBodyBuilder::dynamic().translation(Vector::new(0.2, 0.1, 0.0));
+/// let (bead, _) = world.insert(body, ColliderBuilder::ball(0.002).density(1000.0));
+/// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, bead)?;
+/// let mut immersion = Immersion::new(Fluid::WATER);
+/// immersion.insert(bead, hydro);
+/// immersion.set_flow(Upwelling);
+/// (0..60).for_each(|_| immersion.step(&mut world));
+/// // A bead as heavy as water is carried along: inwards and upwards.
+/// let at = world.bodies[bead].translation();
+/// assert!(at.x < 0.17 && at.y > 0.13);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 pub trait Flow: Send + Sync {
     /// Velocity of the fluid at `point` and `time`, m/s.
     fn velocity(&self, point: Vector, time: f64) -> Vector;
 
-    /// Curl of the velocity at `point` and `time`, 1/s. Zero unless implemented: bodies then do
-    /// not feel that the flow shears.
+    /// Curl of the velocity at `point` and `time`, 1/s. Unless a flow implements it, it is zero, and
+    /// bodies do not feel that the flow shears.
     fn vorticity(&self, _point: Vector, _time: f64) -> Vector {
         Vector::ZERO
     }
@@ -58,7 +113,7 @@ pub trait Flow: Send + Sync {
     }
 }
 
-/// What a batch of one point finds there.
+/// What a batch finds that consists of `point` alone.
 fn alone(flow: &impl Flow, point: Vector, time: f64) -> FlowSample {
     let mut sample = [FlowSample::default()];
     flow.sample(&[point], time, &mut sample);
@@ -76,6 +131,15 @@ impl Flow for Still {
 }
 
 /// The same velocity everywhere and always.
+///
+/// ```
+/// use rapier3d_immersed::flow::{Flow, Uniform};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// let breeze = Uniform::new(2.0, 0.0, 0.0);
+/// assert_eq!(breeze.velocity(Vector::Y * 30.0, 7.0), Vector::X * 2.0);
+/// assert_eq!(breeze.vorticity(Vector::Y * 30.0, 7.0), Vector::ZERO);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Uniform {
     /// Velocity of the fluid, m/s, world axes.
@@ -111,7 +175,7 @@ pub(crate) mod tests {
         ]
     }
 
-    /// The flow's vorticity against central differences of its velocity. The step of 2⁻⁷ m leaves
+    /// Compares the flow's vorticity with central differences of its velocity. The step of 2⁻⁷ m leaves
     /// a rounding error of about 1e-5 of the speed and a truncation error far below the tolerance.
     pub(crate) fn assert_curl_matches(flow: &dyn Flow, point: Vector, time: f64) {
         let h = 1.0 / 128.0;

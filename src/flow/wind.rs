@@ -13,17 +13,18 @@ use rapier3d::math::{Real, Vector};
 /// How the gusts change with height.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HeightLaw {
-    /// As strong at every height above the reference height, fading like the mean wind below it:
-    /// in the surface layer σ/u* does not depend on height (Kaimal et al. 1972). The default.
+    /// Gusts are as strong at every height above the reference height and fade like the mean wind below
+    /// it: in the surface layer σ/u* does not depend on height (Kaimal et al. 1972). This is the default.
     #[default]
     SurfaceLayer,
-    /// In proportion to the mean wind at every height: thesis (3.18).
+    /// Gusts are in proportion to the mean wind at every height, thesis (3.18).
     Proportional,
 }
 
 /// Wind with gusts of a prescribed spectrum (thesis §3.5), looked up from one periodic field.
 ///
-/// Made by `SpectralWind::bake` (feature `bake`) or read from a file.
+/// It is made by `SpectralWind::bake` (feature `bake`) or read from a file with
+/// [`SpectralWind::from_bytes`].
 ///
 /// The field is frozen and carried by the mean wind at the reference height (Taylor's hypothesis).
 /// With an evolution time T it also turns over: two independent fields are mixed as
@@ -43,7 +44,7 @@ pub struct SpectralWind {
     pub(super) evolution_time: f64,
     pub(super) height_law: HeightLaw,
     pub(super) lattice: Lattice,
-    /// Fluctuation along the wind, across it and up, m/s, of both fields at each node.
+    /// Fluctuations along the wind, across it and up, m/s, of both fields at each node.
     pub(super) nodes: Vec<Pair>,
     /// 1/ln(h₀/z₀), 1/z₀, and the largest strength of the gusts.
     per_log: Real,
@@ -61,7 +62,7 @@ const FILE: FileKind = FileKind {
     version: 1,
 };
 
-/// What is the same for every point at one time.
+/// What all points share at one time.
 struct Instant {
     carried: Vec4,
     mix: [Real; 2],
@@ -153,7 +154,7 @@ impl SpectralWind {
     fn instant(&self, time: f64) -> Instant {
         let [passed, turned] = self.per_second;
         let way = fraction(time * passed) * self.length;
-        // At infinitely slow evolution no turns, unless time is infinite too.
+        // An infinitely slow evolution makes no turns, unless time is infinite too.
         let mix = cos_sin(time * turned);
         Instant {
             carried: Vec4::new(way as Real, 0.0, self.ground, 0.0),
@@ -167,7 +168,7 @@ impl SpectralWind {
     fn profile<T: Scalar>(&self, height: T) -> Profile<T> {
         let constant = |value: Real| height.constant(value.into());
         let (zero, one, lowest) = (constant(0.0), constant(1.0), constant(self.roughness));
-        // What is not above the lowest height, NaN too, counts as it; infinity as very high.
+        // NaN and what is not above the lowest height count as the lowest height, infinity as a great one.
         let above = height.select_lt(lowest, height, lowest);
         let above = above.min(constant(Real::MAX));
         let over = (above * constant(self.per_roughness)).min(constant(Real::MAX));
@@ -207,7 +208,7 @@ impl SpectralWind {
         self.to_world(gust * profile.strength + Vec4::X * profile.speed)
     }
 
-    /// The file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
+    /// The bytes of a file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
     /// then the dimensions and the height law (`u64`), direction, up, spacing, mean speed, reference
     /// height, roughness, ground, evolution time or 0 for never (`f64`), six components per node
     /// (`f32`); all little-endian.
@@ -307,7 +308,7 @@ impl Flow for SpectralWind {
     }
 }
 
-/// A batch of look-ups.
+/// A batch of points, to be looked up in lanes.
 struct Batch<'a> {
     wind: &'a SpectralWind,
     instant: Instant,

@@ -1,8 +1,8 @@
 //! Synthesis of the gust field: random Fourier modes of a prescribed spectrum.
 //!
 //! One complex inverse transform per velocity component gives two independent real fields at once,
-//! its real and its imaginary part, with no Hermitian bookkeeping. Variances are computed in f64; the transform
-//! itself runs in f32, the precision of the stored field, at half the time of f64.
+//! its real and its imaginary part, with no Hermitian bookkeeping. Variances are computed in f64; the
+//! transform itself runs in f32, the precision of the stored field, in half the time of f64.
 
 use super::SpectralWind;
 use super::cells::Pair;
@@ -17,6 +17,21 @@ use rustfft::{FftPlanner, num_complex::Complex32};
 
 impl SpectralWind {
     /// Synthesizes the gusts. The result depends on `params` only, not on the number of threads.
+    ///
+    /// ```
+    /// use rapier3d_immersed::flow::{Flow, SpectralWind, Spectrum, WindParams};
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// let spectrum = Spectrum::Given { deviation: [0.8, 0.6, 0.4], length_scale: 20.0 };
+    /// let params = WindParams { nodes: [32, 32, 8], spectrum, seed: 7, ..Default::default() };
+    /// let wind = SpectralWind::bake(&params)?;
+    /// // The gusts have the energy that was asked for, and blow about the mean wind.
+    /// let energy: f32 = wind.fluctuations().map(|u| u.length_squared()).sum();
+    /// let asked = 0.8_f32.powi(2) + 0.6_f32.powi(2) + 0.4_f32.powi(2);
+    /// assert!((energy / (32.0 * 32.0 * 8.0) / asked - 1.0).abs() < 1e-3);
+    /// assert!((wind.velocity(Vector::Y * 10.0, 2.0).x - 4.0).abs() < 4.0);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     ///
     /// # Errors
     /// If a parameter is not finite or out of range: sizes, heights, spacing and evolution time
@@ -133,7 +148,7 @@ impl Modes {
         modes
     }
 
-    /// Sum of the modes' variances.
+    /// The sum of the modes' variances.
     fn resolved(&self) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (number, deviation) in self.deviation.iter().enumerate() {
@@ -193,7 +208,8 @@ impl Modes {
         let [a, b, c] = &mut fields[..] else {
             unreachable!("three components")
         };
-        // Spectral order (x, y, z), z fastest; one random stream per plane makes threads irrelevant.
+        // Modes are in the order (x, y, z), z fastest; with one random stream per plane the result does not
+        // depend on the threads.
         let plane = ny * nz;
         let stretch = self.stretch.map(|s| s as f32);
         let step: [f64; 3] = core::array::from_fn(|i| self.step[i] * self.stretch[i]);
@@ -218,7 +234,7 @@ impl Modes {
                             let k = [kx, ky, signed(z, nz) * step[2]];
                             let k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
                             if k2 > 0.0 {
-                                // In f32, as the modes are; normalized first, so that nothing underflows.
+                                // The modes are f32: k is normalized before, so that nothing underflows.
                                 let per = k2.sqrt().recip();
                                 let k = k.map(|k| (k * per) as f32);
                                 let along = mode[0] * k[0] + mode[1] * k[1] + mode[2] * k[2];
@@ -238,7 +254,7 @@ impl Modes {
         let plans = self.dims.map(|n| planner.plan_fft_inverse(n));
         let mut spare = vec![Complex32::default(); count];
         for field in &mut fields {
-            // (x, y, z) → (z, x, y) → (y, z, x): the fastest axis becomes the slowest.
+            // Each turn (x, y, z) → (z, x, y) → (y, z, x) makes the fastest axis the slowest.
             for (step, axis) in [2, 1, 0].into_iter().enumerate() {
                 if step > 0 {
                     transpose(field, &mut spare, self.dims[axis + 1]);
@@ -260,7 +276,7 @@ impl Modes {
     /// of the two has that variance too.
     fn rescale(&self, params: &WindParams, fields: &mut [Vec<Complex32>]) {
         let count = self.dims.iter().product::<usize>() as f64;
-        // ⟨a²⟩, ⟨ab⟩, ⟨b²⟩; summed in a fixed order.
+        // These are ⟨a²⟩, ⟨ab⟩ and ⟨b²⟩, summed in a fixed order.
         let moments: Vec<[f64; 3]> = fields
             .par_iter()
             .map(|field| {
@@ -275,7 +291,7 @@ impl Modes {
             .map(|m| moments.iter().map(|sum| sum[m]).sum())
             .collect::<Vec<f64>>();
         for i in 0..3 {
-            // Without divergence only a common factor is allowed.
+            // Only a common factor keeps the field free of divergence.
             let ([aa, ab, bb], target) = if params.divergence_free {
                 ([total[0], total[1], total[2]], self.target.iter().sum())
             } else {
@@ -298,7 +314,7 @@ impl Modes {
         }
     }
 
-    /// Interleaves the fields.
+    /// Scales the fields where the spectrum says so, and interleaves them into nodes.
     fn assemble(&self, params: &WindParams, mut fields: Vec<Vec<Complex32>>) -> Vec<Pair> {
         let [nx, ny, nz] = self.dims;
         if let Spectrum::Given { .. } = params.spectrum {

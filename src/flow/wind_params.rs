@@ -1,4 +1,4 @@
-//! What a gust field is asked for: its spectrum, its box, the wind that carries it.
+//! The parameters of a gust field: its spectrum, its box, the wind that carries it.
 
 use super::{HeightLaw, lattice::Lattice, log_law::VON_KARMAN};
 use crate::error::Error;
@@ -10,8 +10,8 @@ use rapier3d::math::{Real, Vector};
 pub enum Spectrum {
     /// Inertial range and variances of Kaimal et al. (1972): n S_i/u*² = (.309, .399, .377) f^(−2/3)
     /// for f = nz/U ≫ f_c, and σ_i/u* = (2.185, 1.638, 1.207) if the box resolved every wavelength,
-    /// which puts the corner at f_c = (.0502, .175, .402). Against Kaimal's own curve 25 % stronger at the
-    /// peak and 2.3 times weaker far below the corner. The default.
+    /// which puts the corner at f_c = (.0502, .175, .402). Against Kaimal's own curve it is 25 % stronger at
+    /// the peak and 2.3 times weaker far below the corner. This is the default.
     #[default]
     Kaimal,
     /// Thesis (3.15)–(3.17): S_u = A_u n^(−5/3) without corner, A_u = u*(U/h)^(2/3), A_v = .88 A_u,
@@ -27,7 +27,24 @@ pub enum Spectrum {
     },
 }
 
-/// What [`SpectralWind::bake`](crate::flow::SpectralWind::bake) needs to know.
+/// The parameters of [`SpectralWind::bake`](crate::flow::SpectralWind::bake).
+///
+/// ```
+/// use rapier3d_immersed::flow::{SpectralWind, WindParams};
+///
+/// // A breeze over a meadow, as a horizontal slice of gusts that repeats after 50 m.
+/// let params = WindParams {
+///     mean_speed: 2.0,
+///     roughness: 0.03,
+///     nodes: [64, 64, 1],
+///     size: [50.0; 3],
+///     ..WindParams::default()
+/// };
+/// let wind = SpectralWind::bake(&params)?;
+/// assert_eq!(wind.period(), [50.0; 3]);
+/// assert!((wind.mean().speed(10.0) - 2.0).abs() < 1e-5);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindParams {
     /// Direction in which the mean wind blows, horizontal. Default +X.
@@ -36,7 +53,8 @@ pub struct WindParams {
     pub up: Vector,
     /// Mean wind at the reference height, m/s. Default 4 (thesis Fig. 3.12).
     pub mean_speed: f64,
-    /// Height above ground of `mean_speed` and of the spectrum, m; the thesis's release height h₀. Default 10.
+    /// Height above ground of `mean_speed` and of the spectrum, m: the thesis's release height h₀. The
+    /// default is 10.
     pub reference_height: f64,
     /// Roughness length z₀ of the ground, m. Default 0.3 (thesis).
     pub roughness: f64,
@@ -108,7 +126,7 @@ const KAIMAL_LEVEL: [f64; 3] = [0.309, 0.399, 0.377];
 const KAIMAL_DEVIATION: [f64; 3] = [2.185, 1.638, 1.207];
 const CORNER_INTEGRAL: f64 = 2.103_27;
 
-/// Checks everything; returns where the nodes are.
+/// Checks the parameters and returns the lattice of the nodes.
 pub(super) fn check(params: &WindParams) -> Result<Lattice, Error> {
     Error::check_finite("mean_speed", params.mean_speed)?;
     Error::check_positive("reference_height", params.reference_height)?;
@@ -167,7 +185,7 @@ pub(super) fn components(params: &WindParams) -> [Component; 3] {
             corner: (KAIMAL_LEVEL[i] * CORNER_INTEGRAL / KAIMAL_DEVIATION[i].powi(2)).powf(1.5)
                 / height,
         },
-        // S_u = A_u n^(−5/3) with n = Uκ: the powers of U cancel.
+        // In S_u = A_u n^(−5/3) with n = Uκ the powers of U cancel.
         Spectrum::Thesis => Component {
             level: friction * height.powf(-2.0 / 3.0) * [1.0, 0.88, 0.55][i],
             corner: 0.0,

@@ -29,7 +29,7 @@ fn halve(
     triangles: &[[u32; 3]],
     marked: &[bool],
 ) -> (Vec<[u32; 3]>, Vec<usize>) {
-    // Equal lengths are told apart by the edge itself, so that both neighbors agree.
+    // The edge itself decides between equal lengths, so that both neighbors agree.
     let longest: Vec<usize> = triangles
         .iter()
         .map(|t| {
@@ -102,7 +102,7 @@ mod tests {
     use crate::geometry::Surface;
     use rand::{RngExt, SeedableRng};
 
-    /// However it is marked, a closed surface stays closed with the same volume and centroid.
+    /// Whichever triangles are marked, a closed surface stays closed with the same volume and centroid.
     #[test]
     fn refinement_keeps_the_surface() {
         let shape = rapier3d::parry::shape::SharedShape::cuboid(0.5, 1.0, 0.1);

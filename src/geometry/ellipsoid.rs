@@ -4,6 +4,17 @@ use rapier3d::na::Vector3;
 use std::f64::consts::PI;
 
 /// An ellipsoid by its semi-axes (m), along the axes of its own frame.
+///
+/// ```
+/// use rapier3d_immersed::geometry::Ellipsoid;
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// // Broadside, an infinitely thin disc of radius a drags (8/3)ρa³ of fluid along.
+/// let disc = Ellipsoid { semi_axes: Vector3::new(0.1, 0.1, 0.0) };
+/// let added_mass = disc.added_mass();
+/// assert!((added_mass.linear[(2, 2)] - 8.0 / 3.0 * 0.1_f64.powi(3)).abs() < 1e-9);
+/// assert_eq!(disc.volume(), 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",

@@ -1,4 +1,9 @@
-//! The geometry that the fluid feels: closed surfaces of any rapier shape, and ellipsoids.
+//! The geometry that the fluid feels: closed surfaces, open sheets and ellipsoids.
+//!
+//! [`Surface::from_shape`] makes a closed surface of any rapier shape, [`Surface::new`] of a mesh of your
+//! own; [`HydroProperties::from_surface`](crate::HydroProperties::from_surface) and
+//! [`DryMass::uniform`](crate::DryMass::uniform) take it from there. A [`Sheet`] is a mesh without thickness,
+//! for the boundary elements (feature `bake`); an [`Ellipsoid`] stands in for any shape.
 
 #[cfg_attr(not(feature = "bake"), allow(dead_code))]
 pub(crate) mod bisect;

@@ -1,5 +1,5 @@
-//! Surfaces of rapier's shapes at a chosen resolution, fine toward their edges: what boundary
-//! elements want to see.
+//! Surfaces of rapier's shapes at a chosen resolution, fine toward their edges, as boundary elements
+//! need them.
 
 use super::graded::{both_ends, one_end};
 use super::{Ellipsoid, Surface};
@@ -14,6 +14,19 @@ impl Surface {
     /// Boxes, cylinders, cones and capsules, and compounds of them, are meshed anew: fine toward
     /// their edges, polygons around their axis, and with exactly the volume of the shape. Of all
     /// other shapes the surface is the one of [`Surface::from_shape`].
+    ///
+    /// ```
+    /// use rapier3d_immersed::geometry::Surface;
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// let leaf = Cuboid::new(Vector::new(0.03, 0.0002, 0.02));
+    /// let [coarse, fine] = [6, 12].map(|cells| Surface::panelled(&leaf, cells));
+    /// let (coarse, fine) = (coarse?, fine?);
+    /// assert!(fine.triangles().len() > 3 * coarse.triangles().len());
+    /// let [a, b] = [coarse, fine].map(|surface| surface.volume_integrals().volume);
+    /// assert!((a / b - 1.0).abs() < 1e-12);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     ///
     /// # Errors
     /// Those of [`Surface::from_shape`], and [`Error::InvalidParameter`] for less than 2 cells.
@@ -60,7 +73,7 @@ impl Surface {
                 let mut profile: Vec<_> = quarter.iter().map(|(s, c)| (r * s, h + r * c)).collect();
                 profile.extend((1..along).map(|i| (r, h - 2.0 * h * i as f64 / along as f64)));
                 profile.extend(quarter.iter().rev().map(|(s, c)| (r * s, -h - r * c)));
-                // Exactly on the axis.
+                // The first point lies exactly on the axis.
                 profile[0].0 = 0.0;
                 let last = profile.len() - 1;
                 profile[last].0 = 0.0;
@@ -121,7 +134,7 @@ fn cap(radius: f64, height: f64, cells: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Points between two rims, without them.
+/// Points between two rims, without those on the rims.
 fn side(radius: f64, half_height: f64, cells: usize) -> Vec<(f64, f64)> {
     let count = share(2.0 * half_height, 2.0 * radius, cells);
     let line = both_ends(count);
@@ -207,7 +220,7 @@ fn revolve(profile: &[(f64, f64)], around: usize, volume: f64) -> Result<Surface
                 id(ring + 1, i),
                 id(ring + 1, i + 1),
             ];
-            // Alternating diagonals, so that the mesh has no handedness.
+            // Diagonals alternate, so that the mesh has no handedness.
             if i % 2 == 0 {
                 triangles.extend([[a, c, d], [a, d, b]]);
             } else {
@@ -273,7 +286,7 @@ mod tests {
     use rapier3d::math::Vector;
     use rapier3d::parry::shape::SharedShape;
 
-    /// Closed (checked by construction), outward, and with the shape's own volume.
+    /// Meshes are closed (which their construction checks), face outward, and have the shape's own volume.
     #[test]
     fn volumes_are_exact() {
         let capsule = PI * 0.25 * 2.0 + 4.0 / 3.0 * PI * 0.125;

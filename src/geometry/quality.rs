@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh, found before anything is computed from it.
+//! Checks of a mesh, before anything is computed from it.
 
 use crate::error::Error;
 use rapier3d::na::Vector3;
@@ -6,7 +6,7 @@ use rapier3d::na::Vector3;
 /// Height over longest edge below which a triangle is a needle: its normal has lost half its digits.
 const NEEDLE: f64 = 1e-8;
 
-/// Every vertex finite, every index in range, at least one triangle.
+/// Checks that every vertex is finite, every index in range, and that there is a triangle.
 pub(crate) fn check_indices(
     vertices: &[Vector3<f64>],
     triangles: &[[u32; 3]],
@@ -33,7 +33,7 @@ pub(crate) fn check_indices(
     Ok(())
 }
 
-/// No triangle collapsed to a point or a line.
+/// Checks that no triangle has collapsed to a point or a line.
 pub(crate) fn check_triangles(
     vertices: &[Vector3<f64>],
     triangles: &[[u32; 3]],
@@ -42,7 +42,7 @@ pub(crate) fn check_triangles(
         let [a, b, c] = t.map(|i| vertices[i as usize]);
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
         let height = (b - a).cross(&(c - a)).norm() / longest;
-        // Of a point, 0/0: not a number is no proper height.
+        // For a point this is 0/0, and not a number is no proper height.
         let proper = height > NEEDLE * longest;
         if !proper {
             return Err(Error::DegenerateTriangle {
@@ -54,7 +54,7 @@ pub(crate) fn check_triangles(
     Ok(())
 }
 
-/// Every part of a closed mesh encloses a positive volume, unless it is a cavity of another part.
+/// Checks that every part of a closed mesh encloses a positive volume, unless it is a cavity of another.
 #[cfg_attr(not(feature = "bake"), allow(dead_code))]
 pub(crate) fn check_parts(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> Result<(), Error> {
     struct Part {
@@ -83,7 +83,7 @@ pub(crate) fn check_parts(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> 
     let mut parts: std::collections::BTreeMap<usize, Part> = Default::default();
     for (first, t) in triangles.iter().enumerate() {
         let key = root(&mut parent, t[0] as usize);
-        // Each part's volume from one of its own vertices.
+        // The volume of each part is computed from one of its own vertices.
         let [a, b, c] = t.map(|i| vertices[i as usize]);
         let part = parts.entry(key).or_insert(Part {
             volume: 0.0,
@@ -111,7 +111,7 @@ pub(crate) fn check_parts(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> 
     Ok(())
 }
 
-/// No two triangles pass through each other or lie on each other, unless they share a vertex.
+/// Checks that no two triangles pass through each other or lie on each other, unless they share a vertex.
 #[cfg_attr(not(feature = "bake"), allow(dead_code))]
 pub(crate) fn check_intersections(
     vertices: &[Vector3<f64>],
@@ -125,7 +125,7 @@ pub(crate) fn check_intersections(
         .iter()
         .map(|[a, b, c]| (a.inf(b).inf(c), a.sup(b).sup(c)))
         .collect();
-    // Sweep along the longest axis.
+    // The triangles are swept along the longest axis.
     let all = bounds
         .iter()
         .skip(1)
@@ -166,9 +166,9 @@ fn crossing(p: &[Vector3<f64>; 3], q: &[Vector3<f64>; 3]) -> Option<Vector3<f64>
     let normal = cross.normalize();
     let height = p.map(|v| normal.dot(&(v - q[0])));
     let size = cross.norm().sqrt();
-    // Single-precision shapes touch no better than this.
+    // Shapes in single precision touch no better than this.
     let flat = 1e-7 * size;
-    // Inside by more than the same margin, so that neighbors without a common vertex may touch.
+    // A point is inside if it is so by more than this margin: neighbors without a common vertex may touch.
     let inside = |x: &Vector3<f64>| {
         (0..3).all(|i| {
             let edge = q[(i + 1) % 3] - q[i];

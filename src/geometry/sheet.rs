@@ -9,6 +9,20 @@ use std::collections::HashMap;
 /// the thickness of what it stands for.
 ///
 /// The fluid feels the mid-surface; the thickness gives the sheet its displaced volume.
+///
+/// ```
+/// use rapier3d_immersed::geometry::Sheet;
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// // A sheet of paper, 0.1 mm thick, that is folded at a right angle along its middle.
+/// let across = [[0.0, 0.1], [0.0, 0.0], [0.1, 0.0]]; // y and z of an edge, the fold, the other edge
+/// let vertices = across.map(|[y, z]| [0.0, 0.1].map(|x| Vector3::new(x, y, z))).concat();
+/// let triangles = [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]];
+/// let sheet = Sheet::new(&vertices, &triangles, 1e-4)?;
+/// assert!((sheet.area() - 0.02).abs() < 1e-12);
+/// assert!((sheet.volume() - 2e-6).abs() < 1e-12);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
     vertices: Vec<Vector3<f64>>,
@@ -337,7 +351,7 @@ mod tests {
         assert_relative_eq!(sheet.area(), 2.0, max_relative = 1e-12);
         assert_relative_eq!(sheet.volume(), 0.02, max_relative = 1e-12);
         assert_eq!(sheet.on_rim().iter().filter(|r| **r).count(), 4 * 7);
-        // No triangle is wasted in a corner, with all three vertices on the rim.
+        // A triangle in a corner with all three vertices on the rim would be wasted.
         let stuck = |t: &[u32; 3]| t.iter().all(|v| sheet.on_rim()[*v as usize]);
         assert!(!sheet.triangles().iter().any(stuck));
         let disc = Sheet::elliptic_disc(2.0, 1.0, 0.01, 5).unwrap();
@@ -349,7 +363,7 @@ mod tests {
     fn airplane_has_the_paper_s_symmetry() {
         let plane = Sheet::paper_airplane(0.083, 1e-4, 6).unwrap();
         assert!(plane.centroid().y.abs() < 1e-12);
-        // The square less the two triangles that the sweep folds away.
+        // The area is that of the square less the two triangles that the sweep folds away.
         let wing = 0.4 * 0.083;
         let area = 0.083 * 0.083 - 2.0 * 0.5 * wing * 0.6 * 0.083;
         assert_relative_eq!(plane.area(), area, max_relative = 1e-12);
@@ -376,7 +390,7 @@ mod tests {
             Sheet::new(&v, &[[0, 1, 1]], 0.1),
             Err(Error::DegenerateTriangle { triangle: 0, .. })
         ));
-        // Five triangles around a strip with a half twist.
+        // A Möbius strip is a ring of five triangles with a half twist.
         let strip: Vec<_> = (0..5)
             .map(|i| {
                 let angle = std::f64::consts::TAU * f64::from(i) / 5.0;

@@ -4,8 +4,24 @@ use crate::error::Error;
 use rapier3d::na::{Matrix3, Vector3};
 use std::collections::HashMap;
 
-/// A closed triangle mesh whose normals point out of the body, into the fluid. f64, because
+/// A closed triangle mesh whose normals point out of the body, into the fluid. It is in f64, because
 /// everything the fluid feels of a shape is computed from it once.
+///
+/// ```
+/// use rapier3d_immersed::geometry::Surface;
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// // The corner of a cube.
+/// let vertices = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+/// let triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+/// let corner = Surface::new(&vertices, &triangles)?;
+/// let integrals = corner.volume_integrals();
+/// assert!((integrals.volume - 1.0 / 6.0).abs() < 1e-12);
+/// assert!((integrals.centroid - Vector3::repeat(0.25)).norm() < 1e-12);
+/// // A mesh with a hole is an error that names an edge of the hole.
+/// assert!(Surface::new(&vertices, &triangles[..3]).is_err());
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     vertices: Vec<Vector3<f64>>,
@@ -113,7 +129,7 @@ impl Surface {
 
     /// Volume, centroid and second moment of the enclosed space, exact for the mesh.
     pub fn volume_integrals(&self) -> VolumeIntegrals {
-        // Tetrahedra from a point of the body, so that thin bodies far from the origin lose nothing.
+        // The tetrahedra share a point of the body, so that thin bodies far from the origin lose no digits.
         let origin = self.vertices[0];
         let (mut volume, mut first) = (0.0, Vector3::zeros());
         let mut second = Matrix3::zeros();

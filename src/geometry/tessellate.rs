@@ -9,7 +9,7 @@ use rapier3d::parry::shape::{Shape, TypedShape};
 use rapier3d::parry::transformation::try_convex_hull;
 use std::f64::consts::{PI, TAU};
 
-/// Segments around a round body, and along half a circle of its profile.
+/// How many segments go around a round body, and along half a circle of its profile.
 const AROUND: usize = 64;
 const ALONG: usize = 48;
 
@@ -24,6 +24,16 @@ impl Surface {
     /// [`Error::ShapeWithoutVolume`] names the shapes that enclose nothing (half-space, height
     /// field, polyline, segment, triangle, custom shapes); an open triangle mesh gives
     /// [`Error::OpenMesh`] and a shape of zero or non-finite size the errors of [`Surface::new`].
+    ///
+    /// ```
+    /// use rapier3d_immersed::geometry::Surface;
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// let coin = Surface::from_shape(&Cylinder::new(0.001, 0.01))?;
+    /// let volume = std::f64::consts::PI * 0.01_f64.powi(2) * 0.002;
+    /// assert!((coin.volume_integrals().volume / volume - 1.0).abs() < 1e-6);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn from_shape(shape: &dyn Shape) -> Result<Self, Error> {
         let none = |shape| Err(Error::ShapeWithoutVolume { shape });
         match shape.as_typed_shape() {
@@ -120,7 +130,7 @@ fn arc(radius: f64, from: f64, to: f64) -> Vec<(f64, f64)> {
     (0..=segments)
         .map(|i| {
             let angle = from + (to - from) * i as f64 / segments as f64;
-            // Exactly on the axis at the poles, so that they weld to one vertex.
+            // The poles lie exactly on the axis, so that they weld to one vertex.
             let at_pole = i == 0 && from == 0.0 || i == segments && to == PI;
             let distance = if at_pole { 0.0 } else { radius * angle.sin() };
             (distance, radius * angle.cos())
@@ -183,7 +193,7 @@ mod tests {
         surface.volume_integrals().volume
     }
 
-    /// Displaced volume decides whether a body floats: exact for every primitive.
+    /// The displaced volume, which decides whether a body floats, is exact for every primitive.
     #[test]
     fn primitive_volumes_are_exact() {
         let shapes = [

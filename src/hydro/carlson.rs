@@ -1,10 +1,15 @@
 //! Carlson's symmetric elliptic integrals (B. C. Carlson, *Numerical computation of real or complex
 //! elliptic integrals*, Numer. Algorithms 10 (1995)): duplication until the arguments agree, then a
-//! Taylor series. Accurate to rounding for non-negative arguments of any size.
+//! Taylor series. Accurate to rounding for non-negative arguments whose products are within f64's range, and
+//! NaN for others.
+
+/// Each duplication brings the arguments four times closer to each other; of f64's 2098 binary orders the
+/// farthest apart need half as many. What has not agreed by then is NaN or infinite.
+const MOST_DUPLICATIONS: u32 = 1100;
 
 /// `R_F(x, y, z) = ½ ∫₀^∞ dt / √((t+x)(t+y)(t+z))`; at most one argument may be zero.
 pub(crate) fn rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
-    loop {
+    for _ in 0..MOST_DUPLICATIONS {
         let mean = (x + y + z) / 3.0;
         let (dx, dy, dz) = (1.0 - x / mean, 1.0 - y / mean, 1.0 - z / mean);
         if dx.abs().max(dy.abs()).max(dz.abs()) < 2e-3 {
@@ -17,12 +22,13 @@ pub(crate) fn rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
         let lambda = sx * sy + sy * sz + sz * sx;
         (x, y, z) = ((x + lambda) / 4.0, (y + lambda) / 4.0, (z + lambda) / 4.0);
     }
+    f64::NAN
 }
 
 /// `R_D(x, y, z) = 3/2 ∫₀^∞ dt / √((t+x)(t+y)(t+z)³)`; `z > 0` and at most one of `x`, `y` zero.
 pub(crate) fn rd(mut x: f64, mut y: f64, mut z: f64) -> f64 {
     let (mut sum, mut weight) = (0.0, 1.0);
-    loop {
+    for _ in 0..MOST_DUPLICATIONS {
         let mean = (x + y + 3.0 * z) / 5.0;
         let (dx, dy, dz) = (1.0 - x / mean, 1.0 - y / mean, 1.0 - z / mean);
         if dx.abs().max(dy.abs()).max(dz.abs()) < 1e-3 {
@@ -43,6 +49,7 @@ pub(crate) fn rd(mut x: f64, mut y: f64, mut z: f64) -> f64 {
         weight /= 4.0;
         (x, y, z) = ((x + lambda) / 4.0, (y + lambda) / 4.0, (z + lambda) / 4.0);
     }
+    f64::NAN
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use rapier3d::parry::shape::Shape;
 ///
 /// Coordinates are those of the *frame* in which the shape was given: the rigid body's local frame
 /// for [`HydroProperties::from_body`], the shape's own for [`HydroProperties::from_shape`].
-/// Depends on the shape alone: neither on the fluid nor on the mass.
+/// They depend on the shape alone, neither on the fluid nor on the mass.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -36,6 +36,17 @@ impl HydroProperties {
     ///
     /// # Errors
     /// Those of [`Surface::from_shape`]: the shape encloses no volume or its mesh is not closed.
+    ///
+    /// ```
+    /// use rapier3d_immersed::HydroProperties;
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// // A ball drags half of the fluid that it displaces along.
+    /// let hydro = HydroProperties::from_shape(&Ball::new(0.1))?;
+    /// assert!((hydro.volume - 4.0 / 3.0 * std::f64::consts::PI * 1e-3).abs() < 1e-8);
+    /// assert!((hydro.added_mass.linear[(0, 0)] / hydro.volume - 0.5).abs() < 0.01);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn from_shape(shape: &dyn Shape) -> Result<Self, Error> {
         Ok(Self::from_surface(
             &Surface::from_shape(shape)?,
@@ -46,12 +57,24 @@ impl HydroProperties {
     /// Properties of a closed surface, referred to `reference`, with the added mass of the proxy
     /// ellipsoid.
     ///
-    /// How good that proxy is: see [`Accuracy`](super::Accuracy).
+    /// [`Accuracy`](super::Accuracy) says how good that proxy is.
+    ///
+    /// ```
+    /// use rapier3d_immersed::HydroProperties;
+    /// use rapier3d_immersed::geometry::{Ellipsoid, Surface};
+    /// use rapier3d_immersed::rapier3d::na::Vector3;
+    ///
+    /// let pebble = Ellipsoid { semi_axes: Vector3::new(0.03, 0.02, 0.01) };
+    /// let hydro = HydroProperties::from_surface(&Surface::ellipsoid(&pebble, 8)?, Vector3::zeros());
+    /// // An ellipsoid is its own proxy.
+    /// assert!((hydro.proxy.semi_axes - pebble.semi_axes).norm() < 3e-4);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn from_surface(surface: &Surface, reference: Vector3<f64>) -> Self {
         let integrals = surface.volume_integrals();
         let axes = principal_axes(surface, &integrals.second_moment);
         let planform = Planform::new(surface, &integrals, axes);
-        // Where parts touch or overlap, faces that no fluid sees show too: a shadow is never larger
+        // Where parts touch or overlap, faces that no fluid reaches count too, but a shadow is never larger
         // than that of the box.
         let [x, y, z]: [f64; 3] = planform.half_extents.into();
         let boxed = Vector3::new(y * z, z * x, x * y) * 4.0;
@@ -77,6 +100,17 @@ impl HydroProperties {
     ///
     /// # Errors
     /// [`Error::UnphysicalAddedMass`] if it is not finite, not symmetric or has negative energy.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::{na::Vector3, prelude::*};
+    /// use rapier3d_immersed::{AddedMass, HydroProperties};
+    ///
+    /// let cube = HydroProperties::from_shape(&Cuboid::new(Vector::splat(0.5)))?;
+    /// // What a table of added masses has for a cube: 0.64 of its volume.
+    /// let tabulated = AddedMass::diagonal(Vector3::repeat(0.64), cube.added_mass.angular.diagonal());
+    /// assert_eq!(cube.with_added_mass(tabulated)?.added_mass.linear[(0, 0)], 0.64);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn with_added_mass(mut self, added_mass: AddedMass) -> Result<Self, Error> {
         if !added_mass.is_physical() {
             return Err(Error::UnphysicalAddedMass);
@@ -109,7 +143,7 @@ fn principal_axes(surface: &Surface, second_moment: &Matrix3<f64>) -> Rotation3<
     let (x, z) = if off_diagonal.norm() <= tolerance {
         let mut order = [0, 1, 2];
         let spread = second_moment.diagonal();
-        // Descending, with ties (within rounding) left in the order of the frame.
+        // The order descends; ties (within rounding) stay in the order of the frame.
         order.sort_by(|i, j| {
             let difference = spread[*j] - spread[*i];
             if difference.abs() <= tolerance {

@@ -1,11 +1,11 @@
 //! The direct classifier: how a body falls, from how it turns and where it goes.
 //!
-//! What is looked at is the plate normal n. A *pass* is n going through the horizontal, so that the
+//! It looks at the plate normal n. A *pass* is n going through the horizontal, so that the
 //! other face comes up; it turns about the horizontal axis e = ±n × y. Two passes with e₁·e₂ > 0 are
 //! one rotation going on, with e₁·e₂ < 0 a swing beyond edge-on and back. A *swing* is a maximum of
-//! the tilt between passes: the body turned back before it was edge-on. Tumbling is all passes of one
-//! sense, flutter all swings, and chaotic motion has both; a body whose tilt stays put is steady if it
-//! keeps its heading and spirals if it goes round.
+//! the tilt between passes: the body turned back before it was edge-on. In tumbling all passes have one
+//! sense, in flutter there are only swings, and chaotic motion has both; a body of constant tilt is steady
+//! if it keeps its heading and spirals if it does not.
 //!
 //! The thesis's (d, e) ([`Spread`](super::Spread)) cannot see rotation; this classifier sees nothing
 //! else, so that the two check each other.
@@ -15,7 +15,27 @@ use super::trajectory::{Moment, Trajectory, principal_variances};
 use rapier3d::na::{Matrix2, Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// Thresholds of the direct classifier.
+/// The direct classifier, by its thresholds.
+///
+/// ```
+/// use rapier3d_immersed::motion::{Classifier, Moment, Regime, Trajectory};
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// // A plate that turns over and over at 10 rad/s about z while it drifts along x.
+/// let moments = (0..360).map(|i| {
+///     let time = f64::from(i) / 120.0;
+///     let (sin, cos) = (10.0 * time).sin_cos();
+///     Moment {
+///         position: Vector3::new(0.5 * time, -time, 0.0),
+///         normal: Vector3::new(-sin, cos, 0.0),
+///         long_axis: Vector3::z(),
+///     }
+/// });
+/// let fall = Trajectory { interval: 1.0 / 120.0, moments: moments.collect() };
+/// let seen = Classifier::default().classify(&fall);
+/// assert_eq!(seen.regime, Regime::PeriodicTumbling);
+/// assert!(seen.flips >= 5 && seen.reversals == 0); // 2 s of 10 rad/s are 6.4 half turns
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -29,15 +49,16 @@ pub struct Classifier {
     pub swing: f64,
     /// How far beyond edge-on makes a pass, rad (default 10°).
     pub pass: f64,
-    /// Tumbling from this share of flips among flips and reversals on (default 0.8).
+    /// The share of flips among flips and reversals from which on a fall is tumbling (default 0.8).
     pub tumbling_share: f64,
-    /// Flutter (or steady) up to this share (default 0.15).
+    /// The share of flips up to which a fall is flutter or steady (default 0.15).
     pub flutter_share: f64,
-    /// Semi-axes of the horizontal velocity's ellipse: rounder than this is a helix (default 0.35)
+    /// A path is a helix if the ellipse of the horizontal velocity is rounder than this, smaller over
+    /// larger semi-axis (default 0.35).
     pub helix_roundness: f64,
-    /// … and than this a spiral (default 0.7).
+    /// It is a spiral if the ellipse is rounder than this (default 0.7).
     pub spiral_roundness: f64,
-    /// Turns of the horizontal velocity that a helix or spiral makes at least (default 1).
+    /// The least number of turns of the horizontal velocity in a helix or spiral (default 1).
     pub least_turns: f64,
 }
 
@@ -61,11 +82,11 @@ impl Default for Classifier {
 pub struct Observation {
     /// The verdict.
     pub regime: Regime,
-    /// Passes that went on: half turns of tumbling.
+    /// Passes after which the rotation went on: half turns of tumbling.
     pub flips: u32,
-    /// Swings, and passes that came back.
+    /// Swings, and passes after which the body turned back.
     pub reversals: u32,
-    /// Turns of the horizontal velocity about its mean, either way round.
+    /// Turns of the horizontal velocity about its mean, in either sense.
     pub turns: f64,
     /// Smaller over larger semi-axis of the horizontal velocity's ellipse.
     pub roundness: f64,
@@ -79,12 +100,12 @@ impl Observation {
     }
 }
 
-/// Something that the normal did.
+/// An event in the motion of the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Event {
-    /// Went through the horizontal, turning about this axis.
+    /// It went through the horizontal, turning about this axis.
     Pass(Vector3<f64>),
-    /// Turned back.
+    /// It turned back.
     Swing,
 }
 
@@ -134,7 +155,7 @@ impl Classifier {
             return events;
         };
         let mut side = first.normal.y.signum();
-        // The last rotation of the normal through the horizontal, until it is far enough beyond.
+        // This is the last rotation of the normal through the horizontal, until it is far enough beyond.
         let mut crossing = None;
         let beyond = self.pass.sin();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -151,7 +172,7 @@ impl Classifier {
                 (low, high, rising) = (f64::INFINITY, f64::NEG_INFINITY, false);
                 continue;
             }
-            // Tilt of the face that is up, beyond π/2 until the pass is complete.
+            // The tilt of the face that is up is beyond π/2 until the pass is complete.
             let tilt = (now.y * side).clamp(-1.0, 1.0).acos();
             if rising {
                 high = high.max(tilt);
@@ -185,9 +206,9 @@ fn flips_and_reversals(events: &[Event]) -> (u32, u32) {
 
 fn count(events: &[Event]) -> (u32, u32) {
     let (mut flips, mut reversals) = (0, 0);
-    // The last pass, which counts as a flip once it is known that the next does not undo it.
+    // The last pass counts as a flip once it is known that the next does not undo it.
     let mut open: Option<Vector3<f64>> = None;
-    // Whether it went on from the pass before.
+    // Whether that pass went on from the one before.
     let mut going_on = false;
     for event in events {
         match (event, open) {
@@ -197,7 +218,7 @@ fn count(events: &[Event]) -> (u32, u32) {
                 going_on = false;
             }
             (Event::Pass(axis), Some(last)) if axis.dot(&last) < 0.0 => {
-                // One swing beyond edge-on and back.
+                // The two passes are one swing beyond edge-on and back.
                 reversals += 1;
                 (open, going_on) = (None, false);
             }
@@ -281,7 +302,7 @@ mod tests {
         }
     }
 
-    /// Turned by `angle` about the horizontal axis z, then about y by `heading`.
+    /// The normal after a rotation by `angle` about the horizontal axis z, then by `heading` about y.
     fn turned(angle: f64, heading: f64) -> Vector3<f64> {
         Vector3::new(
             angle.sin() * heading.cos(),
@@ -301,7 +322,7 @@ mod tests {
         assert_eq!(regime(&steady), Regime::SteadyDescent);
         let glide = fall(3.0, |_| turned(0.3, 0.0), |t| Vector3::new(t, -t, 0.0));
         assert_eq!(regime(&glide), Regime::SteadyDescent);
-        // Flutter of ±50°, and of ±110° beyond edge-on, whose axis precesses.
+        // The axis precesses in a flutter of ±50°, and in one of ±110°, beyond edge-on.
         for amplitude in [50f64, 110.0] {
             let flutter = fall(
                 3.0,
@@ -310,7 +331,7 @@ mod tests {
             );
             assert_eq!(regime(&flutter), Regime::PeriodicFlutter, "{amplitude}");
         }
-        // Tumbling at an uneven rate, precessing.
+        // A tumbling of uneven rate precesses.
         let tumbling = fall(
             3.0,
             |t| turned(-12.0 * t - 0.9 * (12.0 * t).sin(), 0.4 * t),
@@ -320,7 +341,7 @@ mod tests {
         let observed = Classifier::default().classify(&tumbling);
         // 2 s of 12 rad/s are 7.6 half turns.
         assert!((7..=8).contains(&observed.flips) && observed.reversals == 0);
-        // Half a second of each in turn.
+        // A chaotic fall does each for half a second in turn.
         let chaotic = fall(
             6.0,
             |t| {

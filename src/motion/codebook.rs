@@ -43,7 +43,7 @@ pub struct ControlSeries {
 
 /// Entries that a series may have.
 const MOST_ENTRIES: f64 = 1e6;
-/// Size of a control parameter that is beyond reason.
+/// A control parameter that is larger than this is refused.
 const MOST_CONTROL: f64 = 100.0;
 
 impl ControlSeries {
@@ -116,10 +116,10 @@ impl ControlSeries {
         self.interval * self.controls.len() as f64
     }
 
-    /// c̃ at a time since the beginning, s; the last entry goes on for ever.
+    /// c̃ at a time since the beginning, s; the last entry is held for ever.
     #[inline]
     pub fn at(&self, time: f64) -> ForceFactors {
-        // A time that is a whole number of intervals, less rounding, is the next entry's.
+        // A time that rounding puts just below a whole number of intervals belongs to the next entry.
         let index = (time / self.interval + 1e-6).max(0.0) as usize;
         self.controls[index.min(self.controls.len() - 1)]
     }
@@ -152,6 +152,25 @@ impl ControlSeries {
 }
 
 /// Series for one body, to be replayed at run time.
+///
+/// [`Planner::codebook`](crate::training::Planner::codebook) fills one; a scene draws from it:
+///
+/// ```
+/// use rapier3d_immersed::motion::{Codebook, ControlSeries, Dwell, Pattern};
+/// use rapier3d_immersed::{ForceFactors, ViscousLaw};
+///
+/// let series = |pattern| {
+///     ControlSeries::new(0.5, vec![ForceFactors::ONE; 4], vec![Dwell { pattern, from: 0 }])
+/// };
+/// let book = Codebook::new(
+///     "leaf, 7.3 × 4.2 cm",
+///     ViscousLaw::default(),
+///     vec![series(Pattern::Zigzag)?, series(Pattern::Autorotation)?],
+/// )?;
+/// assert_eq!(book.starting_with(Pattern::Zigzag).count(), 1);
+/// assert_eq!(book.series()[1].sequence(), [Pattern::Autorotation]);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -220,12 +239,12 @@ impl Codebook {
             .filter(move |series| series.sequence() == sequence)
     }
 
-    /// A series at random, each as likely: a style for one of many leaves.
+    /// A series at random, all equally likely, for one of many leaves.
     pub fn draw(&self, random: &mut impl Rng) -> &ControlSeries {
         &self.series[random.random_range(0..self.series.len())]
     }
 
-    /// This as the bytes of a file.
+    /// The bytes of a file that holds this codebook.
     #[cfg(feature = "serde-serialize")]
     pub fn to_bytes(&self) -> Vec<u8> {
         crate::file::encode(&FILE, self)
@@ -235,7 +254,7 @@ impl Codebook {
     ///
     /// # Errors
     /// If the bytes are of another kind or version, truncated, altered, or describe something
-    /// inconsistent, not finite or beyond reason.
+    /// inconsistent, not finite or out of range.
     #[cfg(feature = "serde-serialize")]
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let loaded: Self = crate::file::decode(&FILE, bytes)?;
@@ -315,7 +334,7 @@ mod tests {
             altered[at] ^= 0x10;
             assert!(Codebook::from_bytes(&altered).is_err(), "byte {at}");
         }
-        // Rightly framed, but beyond reason.
+        // The frame of the file is right, but its content is out of range.
         let mut bad = book;
         bad.series[0].controls[3].drag = f32::INFINITY;
         assert!(Codebook::from_bytes(&bad.to_bytes()).is_err());

@@ -5,6 +5,19 @@ use rand::{Rng, RngExt};
 
 /// A motion graph over any number of states: a start distribution and the probabilities of going from
 /// one state to another, or of staying, at each turn of the path.
+///
+/// ```
+/// use rapier3d_immersed::motion::{MotionGraph, Pattern};
+///
+/// // Leaves that flutter half of the time before they tumble, and then tumble on.
+/// let (zigzag, tumble) = (Pattern::Zigzag.index(), Pattern::Autorotation.index());
+/// let films = [vec![zigzag, zigzag, tumble], vec![zigzag, tumble, tumble]];
+/// let graph = MotionGraph::estimate(&films, 4)?;
+/// assert_eq!(graph.start(zigzag), 1.0);
+/// assert!((graph.probability(zigzag, tumble) - 2.0 / 3.0).abs() < 1e-12);
+/// assert!(graph.is_absorbing(tumble));
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -12,7 +25,7 @@ use rand::{Rng, RngExt};
 )]
 pub struct MotionGraph {
     start: Vec<f64>,
-    /// Row by row.
+    /// Probabilities of what follows, one row per state.
     transitions: Vec<Vec<f64>>,
 }
 
@@ -220,7 +233,7 @@ impl MotionGraph {
     }
 }
 
-/// An index with the given probabilities; one of probability zero never.
+/// An index with the given probabilities, never one of probability zero.
 fn draw(probabilities: &[f64], random: &mut impl Rng) -> usize {
     let mut left: f64 = random.random_range(0.0..1.0);
     let mut last = 0;
@@ -247,7 +260,7 @@ mod tests {
         assert!(graph.is_unidirectional());
         assert!(graph.is_absorbing(3) && !graph.is_absorbing(2));
         assert!((0..4).all(|state| graph.is_reachable(state)));
-        // Every state but the absorbing one loses mass: rows as printed sum to exactly 1.
+        // Every state but the absorbing one can be left, and rows as printed sum to exactly 1.
         for state in 0..4 {
             let sum: f64 = (0..4).map(|to| graph.probability(state, to)).sum();
             assert!((sum - 1.0).abs() < 1e-12);
@@ -292,7 +305,7 @@ mod tests {
         assert_eq!((without.start(1), without.probability(0, 1)), (0.0, 0.0));
         assert!((without.probability(0, 2) - 0.038 / 0.615).abs() < 1e-12);
         assert!(!without.is_reachable(1));
-        // Autorotation and what follows impossible: steady descent stays what it is.
+        // Where autorotation and what follows are impossible, steady descent stays what it is.
         let brick = graph.restricted(&[true, false, false, false]).unwrap();
         assert!(brick.start(0) == 1.0 && brick.is_absorbing(0));
         assert!((1..4).all(|state| !brick.is_reachable(state)));

@@ -16,6 +16,18 @@ pub enum Outline {
 }
 
 /// Dimensionless numbers of one body in one fluid.
+///
+/// ```
+/// use rapier3d_immersed::Fluid;
+/// use rapier3d_immersed::motion::{DimensionlessNumbers, Outline};
+///
+/// // A disc of aluminium, 2 cm across and 1.5 mm thick, in water.
+/// let coin = DimensionlessNumbers::new(Outline::Round, 0.02, 0.0015, 2700.0, &Fluid::WATER, 9.81)?;
+/// let exact = std::f64::consts::PI * 2700.0 * 0.0015 / (64.0 * 997.0 * 0.02);
+/// assert!((coin.i_star / exact - 1.0).abs() < 1e-6);
+/// assert!((coin.u0 - (1.708 * 9.81 * 0.0015_f64).sqrt()).abs() < 1e-3); // 0.16 m/s
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DimensionlessNumbers {
     /// L: minor axis or chord, twice the shorter in-plane half extent, m.
@@ -29,7 +41,7 @@ pub struct DimensionlessNumbers {
     /// Re = U0 L/ν. The measured phase diagram has another Reynolds number: that of the mean descent
     /// ([`DimensionlessNumbers::reynolds_at`]).
     pub reynolds_u0: f64,
-    /// I*: moment of inertia about the long axis over that of a fluid body.
+    /// I*: moment of inertia about the long axis over that of a body of fluid.
     pub i_star: f64,
     /// Definition of `i_star`.
     pub outline: Outline,
@@ -56,7 +68,7 @@ impl DimensionlessNumbers {
         let extents = plate.half_extents;
         Error::check_positive("half extent", extents.x)?;
         Error::check_positive("half extent", extents.y)?;
-        // Halfway between an ellipse's π/4 and a rectangle's 1.
+        // The boundary lies halfway between an ellipse's π/4 and a rectangle's 1.
         let fill = area / (4.0 * extents.x * extents.y);
         let outline = if fill < 0.5 * (1.0 + PI / 4.0) {
             Outline::Round
@@ -121,7 +133,7 @@ impl DimensionlessNumbers {
     /// `C_D = (64/πRe)(1 + 0.138 Re^0.792)` (Pitter, Pruppacher & Hamielec 1973), 1.17 at least.
     pub fn broadside_descent(&self) -> f64 {
         let drag = |re: f64| (64.0 / (PI * re) * (1.0 + 0.138 * re.powf(0.792))).max(1.17);
-        // ½U²C_D(Re) = U0²; C_D U² grows with U, so bisection of log U finds the only root.
+        // In ½U²C_D(Re) = U0², C_D U² grows with U, so that bisection of log U finds the only root.
         let (mut low, mut high) = (1e-12 * self.u0, 2.0 * self.u0);
         if self.u0 == 0.0 {
             return 0.0;
@@ -190,7 +202,7 @@ mod tests {
         assert!((numbers.thickness / (4.0 / 3.0 * 0.0002) - 1.0).abs() < 0.05);
     }
 
-    /// The estimate balances weight and drag, in creeping flow too: Stokes' broadside disc falls at
+    /// The estimate balances weight and drag, in creeping flow too: Stokes's broadside disc falls at
     /// U = π (ρ_s − ρ_f) g t d/(32 μ) (resistance 16 μ a U).
     #[test]
     fn the_estimated_descent_balances_the_weight() {

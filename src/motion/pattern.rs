@@ -3,23 +3,31 @@
 use std::fmt;
 
 /// Regime of the Re–I* phase diagram (thesis § 3.3.1).
+///
+/// ```
+/// use rapier3d_immersed::motion::{Pattern, Regime};
+///
+/// assert_eq!(Regime::PeriodicTumbling.abbreviation(), "PT");
+/// // Flutter, helix and spiral count as one pattern.
+/// assert_eq!(Pattern::from(Regime::PeriodicSpiral), Pattern::Zigzag);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub enum Regime {
-    /// Straight down, or a glide that does not oscillate.
+    /// The body falls straight down, or glides without oscillation.
     SteadyDescent,
-    /// Side to side with a well-defined period.
+    /// It swings from side to side with a well-defined period.
     PeriodicFlutter,
-    /// Tumbling and fluttering in turn.
+    /// It tumbles and flutters in turn.
     TransitionalChaotic,
-    /// End over end, drifting in one direction.
+    /// It turns end over end and drifts in one direction.
     PeriodicTumbling,
-    /// A helical path, between spiral and flutter.
+    /// Its path is a helix, between spiral and flutter.
     TransitionalHelix,
-    /// Circling down.
+    /// It circles down.
     PeriodicSpiral,
 }
 
@@ -47,7 +55,7 @@ impl Regime {
     }
 
     /// Whether falls in it are put together from glides (thesis Fig. 3.7), rather than from a curve.
-    pub const fn has_search_tree(self) -> bool {
+    pub(crate) const fn has_search_tree(self) -> bool {
         matches!(
             self,
             Self::PeriodicFlutter | Self::TransitionalChaotic | Self::PeriodicTumbling
@@ -70,19 +78,26 @@ impl fmt::Display for Regime {
 
 /// Motion pattern of the pattern-driven method (thesis § 5.4.2), in the order in which they follow
 /// each other.
+///
+/// ```
+/// use rapier3d_immersed::motion::Pattern;
+///
+/// let plan: Result<Vec<Pattern>, _> = "ZZ AR".split(' ').map(str::parse).collect();
+/// assert_eq!(plan.unwrap(), [Pattern::Zigzag, Pattern::Autorotation]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub enum Pattern {
-    /// SD: falls vertically.
+    /// SD: the body falls vertically.
     SteadyDescent,
-    /// AR: tumbles and drifts broadside to one side.
+    /// AR: it tumbles and drifts broadside to one side.
     Autorotation,
-    /// AZ: tumbling and flutter in turn.
+    /// AZ: it tumbles and flutters in turn.
     AutorotationZigzag,
-    /// ZZ: flutters; the periodic helix and spiral count as it (thesis § 5.4.2).
+    /// ZZ: it flutters; the periodic helix and spiral count as this too (thesis § 5.4.2).
     Zigzag,
 }
 

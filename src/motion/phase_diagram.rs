@@ -64,6 +64,18 @@ const TUMBLING: [(f64, f64); 7] = [
 /// them by default are the geometric means of the cases that the thesis prints
 /// ([`PhaseDiagram::THESIS_CASES`]), which therefore say nothing for them: only the order is tested,
 /// where the borders lie is not.
+///
+/// ```
+/// use rapier3d_immersed::motion::{PhaseDiagram, Regime};
+///
+/// let diagram = PhaseDiagram::default();
+/// assert_eq!(diagram.regime(50.0, 0.01), Regime::SteadyDescent);
+/// assert_eq!(diagram.regime(1000.0, 0.1), Regime::PeriodicTumbling);
+/// // The thesis's coin flutters, within the scatter of the measured boundary of chaos.
+/// let coin = PhaseDiagram::THESIS_CASES[0];
+/// let near = diagram.neighbours(coin.reynolds, coin.i_star, 0.2);
+/// assert!(near.contains(&Regime::PeriodicFlutter));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhaseDiagram {
     /// Re above which periodic motion can leave its plane (default 2000).
@@ -109,8 +121,8 @@ pub struct Boundary {
 }
 
 impl PhaseDiagram {
-    /// The cases of thesis § 3.6 with Re and I* **as printed**. Those of paper and leaf do not
-    /// follow from the thesis's own formulas ([`DimensionlessNumbers`](crate::motion::DimensionlessNumbers) does).
+    /// The cases of thesis § 3.6 with Re and I* **as printed**. Those of paper and leaf do not follow from
+    /// the thesis's own formulas, which [`DimensionlessNumbers`](super::DimensionlessNumbers) uses.
     pub const THESIS_CASES: [Case; 3] = [
         Case {
             name: "yen coin in water",
@@ -165,12 +177,12 @@ impl PhaseDiagram {
         }
     }
 
-    /// The other regimes within a factor `1 ± margin` of the point in Re or I*, in order. With 0.2,
-    /// the scatter of the measurements about the curves.
+    /// The other regimes within a factor `1 ± margin` of the point in Re or I*, in order. Measurements
+    /// scatter about the curves by a margin of 0.2.
     pub fn neighbours(&self, reynolds: f64, i_star: f64, margin: f64) -> Vec<Regime> {
         let here = self.regime(reynolds, i_star);
         let mut found = Vec::new();
-        // In small steps, because a regime can be narrower than the margin.
+        // The steps are small, because a regime can be narrower than the margin.
         const STEPS: i32 = 8;
         for step in -STEPS..=STEPS {
             let factor = 1.0 + margin * f64::from(step) / f64::from(STEPS);

@@ -4,6 +4,23 @@ use crate::error::Error;
 use rapier3d::na::Vector3;
 
 /// A path over time: points with times, smooth in between.
+///
+/// [`Sketch::follow`] makes a body follow it, [`Sketch::landing`] draws one through a few points:
+///
+/// ```
+/// use rapier3d_immersed::motion::Sketch;
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// let sketch = Sketch::new(vec![
+///     (0.0, Vector3::new(0.0, 2.0, 0.0)),
+///     (1.0, Vector3::new(0.3, 1.0, 0.0)),
+///     (2.0, Vector3::new(0.0, 0.0, 0.0)),
+/// ])?;
+/// assert_eq!(sketch.at(1.0), Vector3::new(0.3, 1.0, 0.0));
+/// // Between points the path is a smooth curve; beyond its end it goes on straight.
+/// assert!(sketch.at(0.5).x > 0.15 && sketch.at(3.0).y < -0.9);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sketch {
     points: Vec<(f64, Vector3<f64>)>,

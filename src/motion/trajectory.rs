@@ -14,6 +14,25 @@ pub struct Moment {
 }
 
 /// A fall, recorded at equal intervals from its release on.
+///
+/// [`Experiment::run`](crate::training::Experiment::run) records one; for a body in rapier, push a moment
+/// after each step:
+///
+/// ```
+/// use rapier3d_immersed::motion::{Moment, Trajectory};
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// let mut fall = Trajectory { interval: 0.01, ..Trajectory::default() };
+/// for i in 0..=100 {
+///     let time = 0.01 * f64::from(i);
+///     let position = Vector3::new(0.2 * time, -time, 0.0);
+///     fall.moments.push(Moment { position, normal: Vector3::y(), long_axis: Vector3::x() });
+/// }
+/// assert!((fall.duration() - 1.0).abs() < 1e-12);
+/// // Seen from above the path is a line of 0.2 m: its middle is 0.1 m away, its eccentricity 1.
+/// let spread = fall.spread();
+/// assert!((spread.distance - 0.1).abs() < 1e-12 && (spread.eccentricity - 1.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trajectory {
     /// Time between moments, s.

@@ -8,6 +8,19 @@ use rapier3d::na::Vector3;
 /// before it, and is followed by a fall, by `tolerance`. It is reported when it is over, a few points
 /// late. The thesis's tolerance of 0.1 (Fig. 5.12) has no unit; it is read as 0.1 per centimeter, because
 /// its Fig. 5.6 is in centimeters, with L = 3.5 cm.
+///
+/// ```
+/// use rapier3d_immersed::motion::TurnFinder;
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// // A leaf of semi-axis 3.5 cm swings at 1 Hz for 3 s.
+/// let mut finder = TurnFinder::new(0.035, TurnFinder::TOLERANCE);
+/// let path = (0..360).map(|i| {
+///     let time = f64::from(i) / 120.0;
+///     Vector3::new(0.1 * (std::f64::consts::TAU * time).sin(), -0.5 * time, 0.0)
+/// });
+/// assert_eq!(path.filter(|point| finder.push(*point)).count(), 6);
+/// ```
 #[derive(Clone, Debug)]
 pub struct TurnFinder {
     length: f64,
@@ -22,7 +35,7 @@ impl TurnFinder {
     /// The thesis's tolerance in units of the major semi-axis, as we read it: 0.1 /cm × 3.5 cm.
     pub const TOLERANCE: f64 = 0.35;
 
-    /// For a body of major semi-axis `length`, m.
+    /// A finder for a body of major semi-axis `length`, m.
     pub fn new(length: f64, tolerance: f64) -> Self {
         Self {
             length,
@@ -34,7 +47,7 @@ impl TurnFinder {
         }
     }
 
-    /// Takes the next point, m; whether a turn is over.
+    /// Takes the next point, m, and says whether a turn is over.
     pub fn push(&mut self, point: Vector3<f64>) -> bool {
         let [before, last] = self.last;
         self.last = [last, Some(point)];
@@ -59,8 +72,8 @@ impl TurnFinder {
 }
 
 /// Curvature of the circle through three points, 1/m (Menger): four times the triangle's area over the
-/// product of its sides. Zero for points that coincide.
-pub fn curvature(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>) -> f64 {
+/// product of its sides. It is zero for points that coincide.
+fn curvature(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>) -> f64 {
     let (ab, bc, ca) = (b - a, c - b, a - c);
     let sides = ab.norm() * bc.norm() * ca.norm();
     if sides > 0.0 {
@@ -96,7 +109,7 @@ mod tests {
                 }
             }
             assert_eq!(turns.len(), 12, "{rate}");
-            // Reported soon after the turn at (k + ½)/4 s.
+            // Each is reported soon after the turn at (k + ½)/4 s.
             assert!((0.0..0.08).contains(&(turns[0] - 0.125)), "{turns:?}");
         }
         let mut straight = TurnFinder::new(0.0365, TurnFinder::TOLERANCE);

@@ -1,5 +1,5 @@
-//! Suspensions: bodies that enter a scene all the time, some played, some driven by forces (thesis
-//! § 7.3: snow, dust, confetti).
+//! Suspensions (thesis § 7.3: snow, dust, confetti): bodies that enter a scene all the time, some of them
+//! played, the others moved by forces.
 
 use super::player::{AtContact, Drive, MotionPlayer};
 use super::players::MotionPlayers;
@@ -16,26 +16,26 @@ use rapier3d::pipeline::PhysicsWorld;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Where, how many and what kind.
+/// Where bodies appear, how many, and what they do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct EmitterParams {
-    /// Corners of the box in which bodies appear, m. Default a meter square 3 m up.
+    /// Corners of the box in which bodies appear, m. Default a square of 1 m at a height of 3 m.
     pub corners: [Vector; 2],
     /// Bodies per second. Default 100.
     pub rate: Real,
-    /// Most bodies at a time; then the oldest makes room. Default 10 000.
+    /// Most bodies at a time; beyond it the oldest is removed. Default 10 000.
     pub most: usize,
     /// Share of bodies that play a path; the others are immersed. Default 0.9.
     pub played: Real,
     /// How long a body stays, s. Default 60.
     pub lifetime: Real,
-    /// How players follow their path. Default a compliance of 0.1 s.
+    /// How players follow their path. Default [`Drive::Velocity`] with a compliance of 0.1 s.
     pub drive: Drive,
-    /// What a contact does to them. Default: the force model takes over.
+    /// What a contact does to them. Default [`AtContact::HandOver`]: the force model takes over.
     pub at_contact: AtContact,
     /// Seed of places, headings and paths. Default 0.
     pub seed: u64,
@@ -58,7 +58,28 @@ impl Default for EmitterParams {
 
 /// Lets equal bodies into a world.
 ///
-/// With the feature `serde-serialize` it can be saved and goes on alike; loading refuses what
+/// ```
+/// use rapier3d_immersed::playback::{Emitter, EmitterParams, MotionPlayers};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
+///
+/// // Confetti that forces move; with `played` above 0, `paths` would hold falls to play.
+/// let collider = ColliderBuilder::cuboid(0.005, 0.0001, 0.003).density(700.0);
+/// let hydro = HydroProperties::from_shape(&*collider.shape)?;
+/// let params = EmitterParams { rate: 240.0, most: 100, played: 0.0, ..EmitterParams::default() };
+/// let mut emitter = Emitter::new(params, RigidBodyBuilder::dynamic(), collider, hydro, Vec::new())?;
+/// let mut world = PhysicsWorld::new();
+/// let (mut immersion, mut players) = (Immersion::new(Fluid::AIR), MotionPlayers::new());
+/// for _ in 0..30 {
+///     emitter.before_step(&mut world, &mut players, &mut immersion);
+///     players.before_step(&mut RapierSets::of(&mut world), Some(&mut immersion));
+///     immersion.step(&mut world);
+/// }
+/// assert_eq!(emitter.alive().count(), 100); // half a second would bring 120
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
+///
+/// With the feature `serde-serialize` it can be saved and goes on as it would have; loading refuses what
 /// [`Emitter::new`] does, and other versions.
 #[derive(Clone)]
 pub struct Emitter {
@@ -265,14 +286,14 @@ mod tests {
         (places.collect(), players.len(), immersion.len())
     }
 
-    /// Full after 0.75 s, never more than asked, about half of them played, and the same for the same
-    /// seed.
+    /// The emitter is full after 0.75 s and never holds more than asked; about half of the bodies are played,
+    /// the same ones for the same seed.
     #[test]
     fn a_steady_stream() {
         let (places, players, immersed) = run(3);
         assert_eq!(places.len(), 150);
         assert_eq!(immersed, 150);
-        // Binomial(150, ½) within 5 standard deviations.
+        // The bounds are 5 standard deviations of a binomial of 150 and ½.
         assert!((45..=105).contains(&players), "{players}");
         assert!(places.iter().all(|p| p.is_finite() && p.y < 3.01));
         assert_eq!(run(3).0, places);

@@ -12,18 +12,19 @@ use std::sync::Arc;
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub enum Drive {
-    /// By its position; for position-based kinematic bodies, which follow exactly and push others away.
+    /// The path sets its position. This is for position-based kinematic bodies, which follow exactly and push
+    /// others away.
     ///
     /// What is to happen [at a contact](AtContact), with whatever kind of body, begins in the step after
     /// rapier finds it (as near as its prediction distance, or farther with the body's soft CCD
     /// prediction; what moves farther than that in a step is hit late): then the body becomes dynamic,
-    /// with the velocities that it had. At the end of the path it becomes dynamic, too. Its colliders are
-    /// told to look for contacts with fixed and kinematic bodies
-    /// ([`ActiveCollisionTypes`](rapier3d::geometry::ActiveCollisionTypes)), and go on doing so.
+    /// with the velocities that it had. At the end of the path it becomes dynamic as well. Its colliders look
+    /// for contacts with fixed and kinematic bodies from then on
+    /// ([`ActiveCollisionTypes`](rapier3d::geometry::ActiveCollisionTypes)).
     Kinematic,
-    /// By its velocity, every step anew; for dynamic bodies. What contacts displace comes back within
-    /// about `compliance` seconds; zero is at once. The body may turn by more than 45° per step from
-    /// then on, as tumbling leaves do.
+    /// The path sets its velocity in every step. This is for dynamic bodies. A body that a contact displaced
+    /// comes back within about `compliance` seconds, at once if that is zero. It may turn by more than 45°
+    /// per step from then on, as tumbling leaves do.
     Velocity {
         /// Time constant, s.
         compliance: Real,
@@ -37,12 +38,12 @@ pub enum Drive {
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub enum AtContact {
-    /// The body is played no more. If it is immersed, the force model takes over, otherwise rapier
-    /// alone. The default.
+    /// The body is no longer played. If it is immersed, the force model takes over, otherwise rapier
+    /// alone. This is the default.
     #[default]
     HandOver,
-    /// So, too; but once nothing has touched it for `after` seconds the path goes on from where the
-    /// body then is.
+    /// The body is handed over in the same way, but once nothing has touched it for `after` seconds the path
+    /// goes on from where the body then is.
     Resume {
         /// Time without contact, s.
         after: Real,
@@ -55,6 +56,26 @@ pub enum AtContact {
 }
 
 /// One body's path and how it follows it.
+///
+/// ```
+/// use rapier3d_immersed::motion::Regime;
+/// use rapier3d_immersed::motion::path::{Key, MotionPath};
+/// use rapier3d_immersed::playback::{AtContact, Drive, MotionPlayer};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use std::sync::Arc;
+///
+/// let key = Key { position: Vector::ZERO, velocity: Vector::ZERO, attitude: Rotation::IDENTITY };
+/// let path = MotionPath::new(1.0, vec![key; 2], vec![(0.0, Regime::SteadyDescent)])?;
+/// let player = MotionPlayer {
+///     heading: 1.2,
+///     drive: Drive::Kinematic,
+///     at_contact: AtContact::Resume { after: 0.5 },
+///     ..MotionPlayer::new(Arc::new(path), Vector::Y * 3.0)
+/// };
+/// // Where the body is to be put before it plays.
+/// assert!((player.release(Vector::ZERO).translation - Vector::Y * 3.0).length() < 1e-6);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct MotionPlayer {
     /// The path; players may share it.
@@ -64,12 +85,12 @@ pub struct MotionPlayer {
     /// How far the path is turned about +Y, rad. Default 0.
     pub heading: Real,
     /// The plate axes (x longest, z normal) in the body's frame:
-    /// [`Planform::axes`](crate::hydro::Planform), or the default, for a body that is longest along x
+    /// [`Planform::axes`](crate::Planform), or the default, for a body that is longest along x
     /// and thinnest along y.
     pub axes: Rotation,
-    /// Default [`Drive::Velocity`] with a compliance of 0.1 s.
+    /// How the body is made to follow. Default [`Drive::Velocity`] with a compliance of 0.1 s.
     pub drive: Drive,
-    /// Default [`AtContact::HandOver`].
+    /// What a contact does to it. Default [`AtContact::HandOver`].
     pub at_contact: AtContact,
 }
 

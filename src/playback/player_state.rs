@@ -14,7 +14,7 @@ pub(super) struct PlayerState {
     pub path: Arc<MotionPath>,
     pub origin: Vector,
     pub turn: Rotation,
-    /// From the body's frame to the plate's axes.
+    /// The rotation from the body's frame to the plate's axes.
     pub to_plate: Rotation,
     pub drive: Drive,
     pub at_contact: AtContact,
@@ -22,13 +22,13 @@ pub(super) struct PlayerState {
     /// Seconds since something touched it.
     pub free: Real,
     pub waiting: bool,
-    /// Whether the force model has been told to let go.
+    /// Whether the force model is switched off for it.
     pub taken: bool,
     /// Velocity taken from the wind, m/s.
     pub blown: Vector,
-    /// What a contact left of a kinematic body's own motion.
+    /// How a kinematic body still differs from its path after a contact.
     pub deflection: Option<Deflection>,
-    /// Whether its colliders have been told to look for contacts that rapier leaves out.
+    /// Whether its colliders look for the contacts that rapier leaves out.
     pub watched: bool,
     /// The path at `clock`, turned: position from the origin, and attitude of the body's frame.
     pub now: (Vector, Rotation),
@@ -43,10 +43,10 @@ pub(super) struct Deflection {
     pub velocity: Vector,
 }
 
-/// Time in which such differences fade, s: as long as the default compliance.
+/// Time in which a [`Deflection`] fades, s: as long as the default compliance.
 const DEFLECTION_TIME: Real = 0.1;
 
-/// What is the same for all bodies in a step.
+/// What all bodies share in a step.
 pub(super) struct PlayStep {
     pub dt: Real,
     /// Velocity by which gravity moves a body within the step.
@@ -94,7 +94,7 @@ impl PlayerState {
         }
     }
 
-    /// Moves the body, which may be `touching` another, for a step; whether it goes on being played.
+    /// Moves the body, which may be `touching` another, for a step, and says whether it is played on.
     #[inline]
     pub fn advance(
         &mut self,
@@ -222,7 +222,7 @@ impl PlayerState {
         if !body.is_fast_rotation_allowed() {
             body.set_allow_fast_rotation(true);
         }
-        // Where the path was before this step's wind: the wind's displacement is not an error.
+        // This is where the path was before this step's wind, whose displacement is not an error.
         let from = self.origin + self.now.0;
         let lean = self.blow(wind, step);
         let turned = leaning(lean, self.now.1);
@@ -233,7 +233,7 @@ impl PlayerState {
             moved += self.blown * dt;
         }
         let rotation = leaning(lean, self.now.1);
-        // Share of an error that is worked off in this step (implicit Euler).
+        // This is the share of an error that is corrected in this step (implicit Euler).
         let k = dt / (dt + compliance);
         let linear = (moved + (from - com) * k) / dt - step.sag;
         let away = turned * body.rotation().inverse();
@@ -252,7 +252,7 @@ impl PlayerState {
         self.clock < self.path.duration()
     }
 
-    /// Takes on the wind; returns how far it leans the body.
+    /// Takes on the wind, and returns how far that leans the body.
     #[inline]
     fn blow(&mut self, wind: Option<Vector>, step: &PlayStep) -> Option<Rotation> {
         let (wind, response) = (wind?, step.angle?);
@@ -279,7 +279,7 @@ impl PlayerState {
     }
 }
 
-/// A rotation in the wind.
+/// A rotation that the wind leans.
 #[inline]
 fn leaning(lean: Option<Rotation>, rotation: Rotation) -> Rotation {
     lean.map_or(rotation, |lean| lean * rotation)

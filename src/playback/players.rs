@@ -11,14 +11,14 @@ use rapier3d::math::{Real, Vector};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Players whose keys are asked for at once. Players are at different times of different paths, whose keys
+/// How many players fetch their keys together. Players are at different times of different paths, whose keys
 /// rapier's step has pushed out of the cache: one by one, each would wait for its own.
 const GROUP: usize = 16;
 
 /// What a played body does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Playing {
-    /// It follows its path; seconds since the path's beginning.
+    /// It follows its path and has come so far, in seconds since the path's beginning.
     At(Real),
     /// It touches something, or has just done so, and waits for its path to go on.
     Waiting,
@@ -26,12 +26,42 @@ pub enum Playing {
 
 /// The bodies of a world that play paths.
 ///
-/// [`MotionPlayers::before_step`] goes before [`Immersion::before_step`]. A body that is also immersed
-/// is out of the fluid's hands while it is played. Bodies that are removed from rapier are forgotten.
+/// [`MotionPlayers::before_step`] goes before [`Immersion::before_step`]. The fluid does not act on a body
+/// that is also immersed while it is played. Bodies that are removed from rapier are dropped.
+///
+/// ```
+/// use rapier3d_immersed::RapierSets;
+/// use rapier3d_immersed::motion::Regime;
+/// use rapier3d_immersed::motion::path::{Key, MotionPath};
+/// use rapier3d_immersed::playback::{MotionPlayer, MotionPlayers, Playing};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use std::sync::Arc;
+///
+/// // A path straight down at 1 m/s.
+/// let keys = (0..=60).map(|i| Key {
+///     position: Vector::Y * (-i as f32 / 60.0),
+///     velocity: -Vector::Y,
+///     attitude: Rotation::IDENTITY,
+/// });
+/// let path = MotionPath::new(1.0 / 60.0, keys.collect(), vec![(0.0, Regime::SteadyDescent)])?;
+/// let player = MotionPlayer::new(Arc::new(path), Vector::Y * 2.0);
+/// let mut world = PhysicsWorld::new();
+/// let body = RigidBodyBuilder::dynamic().pose(player.release(Vector::ZERO));
+/// let (flake, _) = world.insert(body, ColliderBuilder::ball(0.01));
+/// let mut players = MotionPlayers::new();
+/// players.play(flake, &player)?;
+/// for _ in 0..30 {
+///     players.before_step(&mut RapierSets::of(&mut world), None);
+///     world.step();
+/// }
+/// assert!((world.bodies[flake].translation().y - 1.5).abs() < 1e-3);
+/// assert!(matches!(players.playing(flake), Some(Playing::At(_))));
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 ///
 /// With the feature `serde-serialize` a snapshot holds all but the wind, which is set again; bodies then
-/// go on bit by bit as they would have. Loading refuses what cannot be: another version, numbers that
-/// are not finite, paths that are not there.
+/// go on bit by bit as they would have. Loading refuses another version, numbers that are not finite, and
+/// references to paths that are missing.
 #[derive(Clone, Default)]
 pub struct MotionPlayers {
     pub(super) states: Vec<PlayerState>,
@@ -47,18 +77,18 @@ pub struct MotionPlayers {
 /// Which players touch another body.
 #[derive(Clone, Default)]
 struct Touching {
-    /// By index of the player's state, unless the world is `crowded`.
+    /// One entry per player, in the order of their states, unless the world is `crowded`.
     states: Vec<bool>,
     crowded: bool,
 }
 
 impl MotionPlayers {
-    /// No players, in still fluid.
+    /// An empty set, in fluid at rest.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Sets the wind that blows players along and leans them; `None` for still fluid.
+    /// Sets the wind that blows players along and leans them; `None` stands for fluid at rest.
     ///
     /// # Errors
     /// Those of [`WindResponse::check`].
@@ -115,7 +145,7 @@ impl MotionPlayers {
         self.states.len()
     }
 
-    /// Whether there are none.
+    /// Whether no body is played.
     pub fn is_empty(&self) -> bool {
         self.states.is_empty()
     }
@@ -242,8 +272,8 @@ mod tests {
     use crate::playback::{AtContact, Drive};
     use rapier3d::prelude::*;
 
-    /// What the world's pairs say of a player is what its own pairs say. Bodies land on a floor one after the
-    /// other, until the world is crowded and its pairs are asked no more.
+    /// The world's pairs say the same of a player as its own pairs. Bodies land on a floor one after the
+    /// other, until the world is crowded and its pairs are no longer searched.
     #[test]
     fn players_in_contact_are_found_alike_both_ways() {
         let key = |t: Real| Key {

@@ -1,4 +1,4 @@
-//! Snapshots of players and emitters: what is written, and what is refused when it is read.
+//! Snapshots of players and emitters: how they are written, and which are refused when they are read.
 
 use super::emitter::{Emitter, EmitterParams};
 use super::player::{AtContact, Drive};
@@ -38,7 +38,8 @@ fn check_rotation(what: &'static str, rotation: Rotation) -> Result<(), Error> {
     Error::check(what, norm, (norm - 1.0).abs() < 1e-3, "of norm 1").map(|_| ())
 }
 
-/// Players: paths that they share are written once. `P` is [`MotionPath`] or a reference to one.
+/// A snapshot of players, in which shared paths are written once. `P` is [`MotionPath`] or a reference to
+/// one.
 #[derive(Serialize, Deserialize)]
 struct PlayersSnapshot<P> {
     version: u32,
@@ -58,7 +59,7 @@ struct PlayerSnapshot {
     drive: Drive,
     at_contact: AtContact,
     clock: Real,
-    /// `None` if nothing has touched it: not every format knows infinity.
+    /// `None` if nothing has touched it, because not every format has infinity.
     free: Option<Real>,
     waiting: bool,
     taken: bool,
@@ -178,7 +179,7 @@ impl TryFrom<PlayersSnapshot<MotionPath>> for MotionPlayers {
     }
 }
 
-/// An emitter; `P` as above.
+/// A snapshot of an emitter, with `P` as for players.
 #[derive(Serialize, Deserialize)]
 struct EmitterSnapshot<P> {
     version: u32,

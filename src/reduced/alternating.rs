@@ -87,7 +87,7 @@ impl Projections {
         products
     }
 
-    /// The same for the source, with its weights.
+    /// These products for the source, with its weights.
     fn source_without(&self, skip: Option<usize>, weights: &[f64]) -> DMatrix<f64> {
         let rows = self.source[0].nrows();
         let mut product = DMatrix::from_fn(rows, weights.len(), |_, m| weights[m]);
@@ -138,7 +138,7 @@ pub(crate) fn update(
     for (dimension, weights) in metric.iter().enumerate() {
         let blocks = if dimension == 0 { causal } else { &[] };
         solve_dimension(operator, source, &projections, dimension, blocks, x);
-        // Only this dimension changed, so only it needs normalising.
+        // Only this dimension changed, so that only it needs normalising.
         let before = x.rank();
         normalize_one(x, dimension, weights);
         if x.rank() == 0 {
@@ -182,7 +182,7 @@ fn solve_dimension(
 ) {
     let products = projections.operator_without(Some(dimension));
     let loads = projections.source_without(Some(dimension), source.weights());
-    // Row p, column i: the load on node p of term i.
+    // Row p and column i hold the load on node p of term i.
     let rhs = source.factors(dimension) * loads.transpose();
     let weights = x.weights().to_vec();
     let mut unknown = x.factors(dimension).clone();
@@ -213,7 +213,7 @@ fn solve_dimension(
     all[dimension] = unknown;
 }
 
-/// Solves the equations of the nodes `indices` for the unknowns there, the others as they are.
+/// Solves the equations of the nodes `indices` for the unknowns there, with the others as they are.
 fn solve_nodes(
     factors: &[&Factor],
     products: &[DMatrix<f64>],
@@ -241,7 +241,7 @@ fn solve_nodes(
             load[p * modes + mode] = rhs[(*row, mode)];
         }
     }
-    // What the unknowns outside of the block contribute.
+    // The unknowns outside of the block contribute to the right-hand side.
     if count < unknown.nrows() && count > 1 {
         let mut outside = unknown.clone();
         for row in indices {
@@ -269,7 +269,7 @@ fn solve_nodes(
 }
 
 /// Solves for the correction of `values`, damped so slightly that the fixed point does not move:
-/// terms that have become parallel make the matrix singular, and their parts must not run away.
+/// terms that have become parallel make the matrix singular, and their parts must not diverge.
 fn correct(matrix: &DMatrix<f64>, rhs: &DVector<f64>, values: &mut DVector<f64>) {
     const DAMPING: f64 = 1e-13;
     let residual = rhs - matrix * &*values;

@@ -22,12 +22,12 @@ pub enum Family {
     /// finite elements (thesis § 6.2.3 names no degree), one element of high degree a spectral basis.
     Lobatto,
     /// The start of the element and the right Gauss–Radau points: for time. Collocation there is
-    /// the Radau IIA method, equal to the discontinuous Galerkin method with Radau quadrature:
-    /// stiffly accurate and L-stable, of order `2·degree − 1` at the ends of the elements.
+    /// the Radau IIA method, equal to the discontinuous Galerkin method with Radau quadrature. It is
+    /// stiffly accurate, L-stable, and of order `2·degree − 1` at the ends of the elements.
     Radau,
 }
 
-/// What is stored of an axis; the rest follows.
+/// What is stored of an axis, from which the rest follows.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -47,6 +47,19 @@ struct Mesh {
 /// The coordinate has whatever unit the user gives it. Functions are continuous and determined by
 /// their values at [`Axis::nodes`]. An end where every function vanishes carries no node: see
 /// [`Axis::with_zero_start`].
+///
+/// ```
+/// use rapier3d_immersed::reduced::Axis;
+///
+/// // Twelve nodes interpolate a smooth function on [0, 2] to nine digits.
+/// let axis = Axis::spectral(0.0, 2.0, 12)?;
+/// let sine = axis.sample(f64::sin);
+/// assert!((axis.interpolate(sine.as_slice(), 1.234) - 1.234_f64.sin()).abs() < 1e-9);
+/// // The weights integrate.
+/// let integral: f64 = axis.weights().iter().zip(&sine).map(|(weight, value)| weight * value).sum();
+/// assert!((integral - (1.0 - 2.0_f64.cos())).abs() < 1e-9);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -113,7 +126,7 @@ impl Axis {
     /// `elements` equal Lobatto elements of the given degree from `start` to `end`.
     ///
     /// # Errors
-    /// As [`Axis::new`]; `elements` must be positive.
+    /// Those of [`Axis::new`]; `elements` must be positive.
     pub fn elements(start: f64, end: f64, elements: usize, degree: usize) -> Result<Self, Error> {
         Self::new(Family::Lobatto, uniform(start, end, elements)?, degree)
     }
@@ -121,7 +134,7 @@ impl Axis {
     /// One element of degree `nodes − 1`: a spectral basis.
     ///
     /// # Errors
-    /// As [`Axis::new`]; at least two nodes.
+    /// Those of [`Axis::new`]; there must be at least two nodes.
     pub fn spectral(start: f64, end: f64, nodes: usize) -> Result<Self, Error> {
         Self::elements(start, end, 1, nodes.saturating_sub(1))
     }
@@ -130,7 +143,7 @@ impl Axis {
     /// elements with `stages` nodes each.
     ///
     /// # Errors
-    /// As [`Axis::new`]; `elements` must be positive.
+    /// Those of [`Axis::new`]; `elements` must be positive.
     pub fn time(start: f64, end: f64, elements: usize, stages: usize) -> Result<Self, Error> {
         let axis = Self::new(Family::Radau, uniform(start, end, elements)?, stages)?;
         Ok(axis.with_zero_start())
@@ -156,7 +169,7 @@ impl Axis {
 
     /// The same mesh with a node at both ends.
     #[must_use]
-    pub fn with_free_ends(self) -> Self {
+    pub(crate) fn with_free_ends(self) -> Self {
         Self::from_mesh(Mesh {
             zero_start: false,
             zero_end: false,
@@ -333,7 +346,7 @@ impl Axis {
     }
 
     /// The matrix that takes nodal values to values at `points`.
-    pub fn interpolation_matrix(&self, points: &[f64]) -> DMatrix<f64> {
+    pub(crate) fn interpolation_matrix(&self, points: &[f64]) -> DMatrix<f64> {
         let mut matrix = DMatrix::zeros(points.len(), self.len());
         let mut basis = [0.0; MAX_DEGREE + 1];
         for (row, x) in points.iter().enumerate() {

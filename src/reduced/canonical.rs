@@ -7,6 +7,17 @@ use rapier3d::na::{DMatrix, DVector};
 const ACCURATE_NORM_TERMS: usize = 160;
 
 /// A tensor Σᵢ αᵢ U¹ᵢ ⊗ … ⊗ Uᵈᵢ (thesis (6.10)), as nodal values or as a weak-form source.
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::na::DVector;
+/// use rapier3d_immersed::reduced::Canonical;
+///
+/// // The matrix 2 (1, 2)ᵀ (3, 4, 5) as one term.
+/// let mut tensor = Canonical::zeros(&[2, 3]);
+/// tensor.push(2.0, &[DVector::from_vec(vec![1.0, 2.0]), DVector::from_vec(vec![3.0, 4.0, 5.0])])?;
+/// assert_eq!((tensor.rank(), tensor.at(&[1, 2])), (1, 20.0));
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canonical {
     weights: Vec<f64>,
@@ -158,9 +169,9 @@ impl Canonical {
         product.sum()
     }
 
-    /// The norm that belongs to [`Canonical::inner`]. With few terms, orthogonal factorisations
-    /// make it accurate to the rounding of the terms; with many, cancellation among them leaves an
-    /// error of about 1e-8 of the largest.
+    /// The norm that belongs to [`Canonical::inner`]. If terms are few, orthogonal factorisations make it
+    /// accurate to their rounding; if they are many, cancellation among them leaves an error of about 1e-8
+    /// of the largest.
     pub fn norm(&self, metric: &[DVector<f64>]) -> f64 {
         if self.rank() == 0 {
             return 0.0;
@@ -250,7 +261,7 @@ mod tests {
         (tensor, metric)
     }
 
-    /// Both norms and the inner product against the sum over all entries.
+    /// Both norms and the inner product agree with the sum over all entries.
     #[test]
     fn norms_agree_with_the_full_tensor() {
         let (tensor, metric) = example();

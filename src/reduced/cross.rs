@@ -10,7 +10,7 @@ use rand_pcg::Pcg64;
 use rapier3d::na::DMatrix;
 use std::collections::HashMap;
 
-/// Parameters of [`cross`].
+/// Parameters of [`cross()`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct CrossParams {
     /// The sweeps stop when the error at random nodes, relative to the values there, is at most
@@ -44,7 +44,7 @@ impl Default for CrossParams {
     }
 }
 
-/// How the sampling went. Not to converge is no error.
+/// How the sampling went. A sampling that does not converge is no error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CrossReport {
     /// Samples of the function.
@@ -91,11 +91,25 @@ impl<F: FnMut(&[f64], &mut [f64])> Sampler<'_, F> {
     }
 }
 
-/// Learns `function(point, outputs)` on the nodes of `axes`.
+/// Samples `function(point, outputs)` on nodes of `axes` and approximates it by a tensor train.
+///
+/// ```
+/// use rapier3d_immersed::reduced::{Axis, CrossParams, cross};
+///
+/// // Six coordinates: 9⁶ = 531 441 nodes, of which a few thousand are enough.
+/// let axes = vec![Axis::spectral(0.0, 1.0, 9)?; 6];
+/// let function = |x: &[f64], out: &mut [f64]| out[0] = 1.0 / (1.0 + x.iter().sum::<f64>());
+/// let params = CrossParams { tolerance: 1e-5, ..CrossParams::default() };
+/// let (train, report) = cross(axes, 1, function, &params)?;
+/// assert!(report.converged && report.evaluations < 50_000);
+/// let x = [0.11, 0.72, 0.35, 0.58, 0.93, 0.24];
+/// assert!((train.evaluate(&x)[0] - 1.0 / (1.0 + x.iter().sum::<f64>())).abs() < 1e-4);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 ///
 /// # Errors
-/// If there are no axes or outputs, an axis leaves an end out, more than 65 535 nodes or outputs, a parameter out of range,
-/// or a sample that is not finite.
+/// If there are no axes or outputs, an axis leaves an end out, there are more than 65 535 nodes or outputs, a
+/// parameter is out of range, or a sample is not finite.
 pub fn cross(
     axes: Vec<Axis>,
     outputs: usize,
@@ -136,7 +150,7 @@ pub fn cross(
     let checks: Vec<Vec<u16>> = (0..params.check_points)
         .map(|_| random_index(0, d))
         .collect();
-    // left[k]: indices of the dimensions before k; right[k]: of those from k on.
+    // left[k] has indices of the dimensions before k, right[k] of those from k on.
     let mut left: Vec<Vec<Vec<u16>>> = vec![vec![vec![]]; d + 1];
     let mut right: Vec<Vec<Vec<u16>>> = (0..=d)
         .map(|k| {
@@ -249,12 +263,12 @@ fn skeleton(matrix: &DMatrix<f64>, params: &CrossParams) -> (Vec<usize>, DMatrix
     // What lies below rounding carries no information on which rows matter.
     let (q, _) = column_basis(matrix, 1e-13);
     if q.ncols() == 0 {
-        // A zero matrix: any row represents it.
+        // Any row represents a zero matrix.
         return (vec![0], DMatrix::zeros(matrix.nrows(), 1));
     }
     let mut rows = pivots(&q);
     let mut weights = q.clone() * inverse(&q.select_rows(&rows));
-    // Swap rows while that enlarges the volume.
+    // Rows are swapped as long as that enlarges the volume.
     for _ in 0..100 {
         let (mut row, mut column, mut most) = (0, 0, 0.0);
         for j in 0..weights.ncols() {
@@ -270,7 +284,7 @@ fn skeleton(matrix: &DMatrix<f64>, params: &CrossParams) -> (Vec<usize>, DMatrix
         rows[column] = row;
         weights = q.clone() * inverse(&q.select_rows(&rows));
     }
-    // Further rows where the weights are longest.
+    // Further rows are taken where the weights are longest.
     let limit = params
         .max_rank
         .min(rows.len() + params.rank_growth)
@@ -329,7 +343,7 @@ fn inverse(square: &DMatrix<f64>) -> DMatrix<f64> {
 mod tests {
     use super::*;
 
-    /// 1/(1 + Σx) in six dimensions, with a second output: its values off the grid.
+    /// 1/(1 + Σx) in six dimensions, with a second output, is right off the grid.
     #[test]
     fn a_smooth_function_of_six_variables() {
         let axes = vec![Axis::spectral(0.0, 1.0, 9).unwrap(); 6];
@@ -344,7 +358,7 @@ mod tests {
         };
         let (train, report) = cross(axes, 2, function, &params).unwrap();
         assert!(report.converged, "{report:?}");
-        // Far fewer samples than the 9⁶ = 531 441 of the grid.
+        // These are far fewer samples than the 9⁶ = 531 441 of the grid.
         assert!(report.evaluations < 60_000, "{report:?}");
         let rounded = train.rounded(1e-7);
         assert!(rounded.ranks().iter().sum::<usize>() < train.ranks().iter().sum());
@@ -353,7 +367,7 @@ mod tests {
             let x: Vec<f64> = (0..6).map(|_| random.random()).collect();
             let (a, b) = (train.evaluate(&x), rounded.evaluate(&x));
             for k in 0..2 {
-                // Interpolation with nine points of a function singular at −1: below 1e-6.
+                // Interpolation with nine points is right to 1e-6 for a function that is singular at −1.
                 assert!((a[k] - exact(&x)[k]).abs() < 1e-6, "{x:?}: {a:?}");
                 assert!((a[k] - b[k]).abs() < 1e-6);
             }

@@ -1,4 +1,4 @@
-//! An adaptive explicit integrator: trains surrogates, finds singularities.
+//! An adaptive explicit integrator, which computes the data of surrogates and finds singularities.
 
 /// Tolerances of [`integrate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ const STAGES: [[f64; 6]; 6] = [
         11.0 / 84.0,
     ],
 ];
-/// Fifth minus fourth order.
+/// Weights of the fifth-order solution minus those of the fourth-order one.
 const ERROR: [f64; 7] = [
     71.0 / 57600.0,
     0.0,
@@ -67,6 +67,17 @@ const ERROR: [f64; 7] = [
 /// `rate(t, state, out)` writes the time derivative. Returns the time that was reached: `end`, or
 /// less where the steps became too small or too many (the solution is singular, or the rate not
 /// finite); `state` is then the last one accepted.
+///
+/// ```
+/// use rapier3d_immersed::reduced::{Tolerances, integrate};
+///
+/// // A harmonic oscillator comes back after a period.
+/// let mut state = [1.0, 0.0];
+/// let rate = |_: f64, x: &[f64], out: &mut [f64]| (out[0], out[1]) = (x[1], -x[0]);
+/// let period = std::f64::consts::TAU;
+/// assert_eq!(integrate(rate, 0.0, period, &mut state, Tolerances::default()), period);
+/// assert!((state[0] - 1.0).abs() < 1e-6 && state[1].abs() < 1e-6);
+/// ```
 pub fn integrate(
     mut rate: impl FnMut(f64, &[f64], &mut [f64]),
     start: f64,

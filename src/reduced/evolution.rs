@@ -22,12 +22,12 @@ use std::sync::Arc;
 /// Which components are solved for together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Coupling {
-    /// All: a mode is a vector function of time times functions of the parameters, and Newton's
-    /// linearisation sees every product. The default.
+    /// All of them: a mode is a vector function of time times functions of the parameters, and Newton's
+    /// linearisation contains every product. This is the default.
     #[default]
     Monolithic,
-    /// One after the other, each with modes of its own, products with the others' components
-    /// taken from their last values (thesis (6.17)).
+    /// One after the other, each with modes of its own; in products, the other components have their last
+    /// values (thesis (6.17)).
     Decoupled,
 }
 
@@ -53,7 +53,7 @@ impl Default for EvolutionParams {
     }
 }
 
-/// How the solution of a system went. Not to converge is no error.
+/// How the solution of a system went. A solution that does not converge is no error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvolutionReport {
     /// Modes of û (of all components together when decoupled), those of u⁰ not counted.
@@ -67,7 +67,7 @@ pub struct EvolutionReport {
     pub singularity: Option<Singularity>,
 }
 
-/// Components that share modes: their positions and û.
+/// Components that share modes, by their positions, and their û.
 struct Group {
     members: Vec<usize>,
     increment: Canonical,
@@ -85,11 +85,33 @@ struct Problem<'a> {
 }
 
 /// Solves the system from time 0 to the end of `time` ([`Axis::time`], starting at 0) for all
-/// parameters at once. `observe` sees the solution after every enrichment.
+/// parameters at once. `observe` is given the solution after every enrichment.
+///
+/// ```
+/// use rapier3d_immersed::reduced::{Axis, EvolutionParams, InitialTerm, QuadraticSystem, RateTerm, evolve};
+///
+/// // u̇ = −k u from u = 1, for every k from 1 to 2 at once.
+/// let system = QuadraticSystem {
+///     components: 1,
+///     parameters: vec![Axis::spectral(1.0, 2.0, 10)?],
+///     initial: vec![InitialTerm { component: 0, coefficient: 1.0, parameters: vec![] }],
+///     rates: vec![RateTerm {
+///         component: 0,
+///         coefficient: -1.0,
+///         states: vec![0],
+///         parameters: vec![(0, |k| k)],
+///     }],
+/// };
+/// let time = Axis::time(0.0, 1.0, 8, 3)?;
+/// let (u, report) = evolve(&system, &time, &EvolutionParams::default(), |_, _| ())?;
+/// assert!(report.converged);
+/// assert!((u.evaluate(&[0.7, 1.3])[0] - (-1.3 * 0.7_f64).exp()).abs() < 1e-5);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 ///
 /// # Errors
-/// If the system names what it has not, a function of a parameter is not finite, the time axis
-/// is not a Radau axis from 0, or a parameter of the method is out of range.
+/// If the system names a component or parameter that it does not have, a function of a parameter is not
+/// finite, the time axis is not a Radau axis from 0, or a parameter of the method is out of range.
 pub fn evolve(
     system: &QuadraticSystem,
     time: &Axis,
@@ -276,7 +298,7 @@ impl<'a> Problem<'a> {
         tensor
     }
 
-    /// Sum over the rate terms of a group, each with what `states` makes of it.
+    /// The sum over the rate terms of a group, each with the tensor that `states` gives for it.
     fn sum_of_rates(&self, group: usize, states: impl Fn(&RateTerm) -> Canonical) -> Canonical {
         let mut sum = Canonical::zeros(&self.groups[group].increment.shape());
         for term in &self.system.rates {
@@ -288,7 +310,7 @@ impl<'a> Problem<'a> {
         sum
     }
 
-    /// ∫ f(u) − û, tested.
+    /// The residual ∫ f(u) − û, tested.
     fn residual(&self, group: usize) -> Canonical {
         let rates = self.sum_of_rates(group, |term| match term.states[..] {
             [] => self.ones(),
@@ -366,7 +388,7 @@ impl<'a> Problem<'a> {
         operator
     }
 
-    /// ‖û − ∫f(u)‖ / ‖û‖ over nodes of the parameter grid, all or a random sample of them.
+    /// ‖û − ∫f(u)‖ / ‖û‖ over nodes of the parameter grid, all of them or a random sample.
     fn relative_residual(&self, points: usize, seed: u64) -> f64 {
         let axes = &self.system.parameters;
         let all = axes

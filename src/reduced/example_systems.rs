@@ -27,7 +27,18 @@ fn unknown_initial_values(count: usize) -> Vec<InitialTerm> {
     (0..count).map(term).collect()
 }
 
-/// k(u̇ + 1) = 10 from u = 0 (thesis (6.18)); the parameter is k. Solution: [`linear_solution`].
+/// k(u̇ + 1) = 10 from u = 0 (thesis (6.18)); the parameter is k. [`linear_solution`] is its solution.
+///
+/// ```
+/// use rapier3d_immersed::reduced::Axis;
+/// use rapier3d_immersed::reduced::example_systems::{linear, linear_solution};
+///
+/// let system = linear(Axis::spectral(1.0, 10.0, 8)?);
+/// let mut rate = [0.0];
+/// system.rate(&[4.0], &[0.0], &mut rate);
+/// assert!((rate[0] - linear_solution(1.0, 4.0)).abs() < 1e-12); // the rate is constant
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 pub fn linear(k: Axis) -> QuadraticSystem {
     QuadraticSystem {
         components: 1,
@@ -40,14 +51,14 @@ pub fn linear(k: Axis) -> QuadraticSystem {
     }
 }
 
-/// t (10/k − 1).
+/// The solution of [`linear`], t (10/k − 1).
 pub fn linear_solution(t: f64, k: f64) -> f64 {
     t * (10.0 / k - 1.0)
 }
 
 /// A body in free fall against quadratic drag (thesis (6.20)), upward velocity in m/s; the
 /// parameter is C_D. ρ_f = 1.23 kg/m³, g = 9.81 m/s², A = 0.5 m², m = 0.1 kg (thesis Fig. 6.4).
-/// Solution: [`falling_body_solution`].
+/// [`falling_body_solution`] is its solution.
 pub fn falling_body(drag: Axis) -> QuadraticSystem {
     QuadraticSystem {
         components: 1,
@@ -60,7 +71,7 @@ pub fn falling_body(drag: Axis) -> QuadraticSystem {
     }
 }
 
-/// −u_T tanh(g t / u_T) with the terminal velocity u_T (thesis §6.4.2).
+/// The solution of [`falling_body`], −u_T tanh(g t / u_T) with the terminal velocity u_T (thesis §6.4.2).
 pub fn falling_body_solution(t: f64, drag: f64) -> f64 {
     let terminal = (2.0 * 0.1 * 9.81 / (1.23 * drag * 0.5_f64)).sqrt();
     -terminal * (9.81 * t / terminal).tanh()
@@ -94,7 +105,7 @@ pub fn coupled_triple(initial_value: &Axis) -> QuadraticSystem {
 /// inertia in rotation. Gravity, 9.81 m/s², points along the body's (−1, 2, −2)/3.
 pub fn kirchhoff_ellipsoid(initial_velocity: &Axis) -> QuadraticSystem {
     let density = 1.1;
-    // Everything per displaced mass: V ρ_f = 1.
+    // Everything is per displaced mass: V ρ_f = 1.
     let squares = [9.0, 4.0, 1.0];
     let added = [0.18526, 0.36454, 1.36153];
     let added_rotation = [0.38327, 0.70824, 0.05990];
@@ -107,7 +118,7 @@ pub fn kirchhoff_ellipsoid(initial_velocity: &Axis) -> QuadraticSystem {
     let mut rates = Vec::new();
     for i in 0..3 {
         let (j, k) = (next(i, 1), next(i, 2));
-        // (M u) × ω and (J ω) × ω + (M u) × u, component i.
+        // This is component i of (M u) × ω and of (J ω) × ω + (M u) × u.
         rates.push(rate(i, gravity[i] / mass[i], &[], &[]));
         rates.push(rate(i, mass[j] / mass[i], &[j, 3 + k], &[]));
         rates.push(rate(i, -mass[k] / mass[i], &[k, 3 + j], &[]));

@@ -15,7 +15,7 @@ macro_rules! saved {
                 version: 1,
             };
 
-            /// This as the bytes of a file.
+            /// The bytes of a file that holds this.
             pub fn to_bytes(&self) -> Vec<u8> {
                 encode(&Self::FILE, self)
             }

@@ -8,11 +8,11 @@ use rapier3d::na::{DMatrix, DVector};
 /// Parameters of [`fit`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitParams {
-    /// Where to start. `None`: the best of `random_starts`. Default `None`.
+    /// Where to start; `None` (the default) stands for the best of `random_starts`.
     pub start: Option<Vec<f64>>,
     /// Random points of the ranges at which the model is tried first. Default 500.
     pub random_starts: usize,
-    /// From how many of the best of them the descent is run. Default 3.
+    /// Number of the best random points from which a descent is run. Default 3.
     pub descents: usize,
     /// Growing fractions of the data, which are in order of time, to descend on one after the other,
     /// each from the result of the last: a long track of a motion that amplifies small differences
@@ -47,17 +47,18 @@ impl Default for FitParams {
     }
 }
 
-/// What [`fit`] found. Not to converge is no error.
+/// What [`fit`] found. A fit that does not converge is no error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The parameters with the least weighted squares.
     pub parameters: Vec<f64>,
-    /// Their standard deviations, from the covariance.
+    /// Standard deviations of the parameters, from the covariance.
     pub deviations: Vec<f64>,
     /// Covariance of the parameters, linearised at the minimum: (JᵀJ)⁻¹ times the mean squared
     /// weighted residual per degree of freedom.
     pub covariance: DMatrix<f64>,
-    /// Root of that mean: 1 where the given deviations of the data are right and the model holds.
+    /// Root of the mean squared weighted residual per degree of freedom: 1 if the given deviations of the
+    /// data are right and the model holds.
     pub reduced_residual: f64,
     /// What the model gives with these parameters.
     pub prediction: Vec<f64>,
@@ -65,7 +66,7 @@ pub struct Fit {
     pub evaluations: usize,
     /// Whether the descent ended by the tolerance, inside of the ranges.
     pub converged: bool,
-    /// Parameters that ended at an end of their range: the data would have them beyond it.
+    /// Parameters that ended at an end of their range, beyond which the data would have them.
     pub at_bound: Vec<usize>,
 }
 
@@ -118,7 +119,7 @@ impl<F: FnMut(&[f64], &mut [f64])> Problem<'_, F> {
             below[k] = (at[k] - step).max(0.0);
             let width = above[k] - below[k];
             let difference = (self.residual(&above).0 - self.residual(&below).0) / width;
-            // Where the model fails beside a point there is no slope to follow.
+            // There is no slope to follow if the model fails beside the point.
             jacobian.set_column(k, &difference.map(|x| if x.is_finite() { x } else { 0.0 }));
         }
         jacobian
@@ -133,9 +134,29 @@ impl<F: FnMut(&[f64], &mut [f64])> Problem<'_, F> {
 /// writes as many data as `prediction` holds: the first ones, where [`FitParams::stages`] asks for a
 /// part of them. Where it fails it may write anything not finite.
 ///
+/// ```
+/// use rapier3d_immersed::reduced::{FitParams, fit};
+///
+/// // A damped oscillation of which frequency and damping are wanted.
+/// let model = |parameters: &[f64], prediction: &mut [f64]| {
+///     for (i, value) in prediction.iter_mut().enumerate() {
+///         let time = 0.1 * i as f64;
+///         *value = (-parameters[1] * time).exp() * (parameters[0] * time).cos();
+///     }
+/// };
+/// let mut track = [0.0; 50];
+/// model(&[3.0, 0.4], &mut track);
+/// track.iter_mut().enumerate().for_each(|(i, x)| *x += 0.01 * (7.3 * i as f64).sin()); // "noise"
+/// let ranges = [(1.0, 6.0), (0.05, 1.5)];
+/// let found = fit(model, &track, &[0.01; 50], &ranges, &FitParams::default())?;
+/// assert!(found.converged && found.at_bound.is_empty());
+/// assert!((found.parameters[0] - 3.0).abs() < 4.0 * found.deviations[0]);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
+///
 /// # Errors
-/// If the stages do not grow to 1, lists differ in length, data are fewer than parameters, an entry is not finite, a deviation
-/// not positive, a range empty, or the start outside of its range.
+/// If the stages do not grow to 1, lists differ in length, data are fewer than parameters, an entry is not
+/// finite, a deviation not positive, a range empty, or the start outside of its range.
 pub fn fit(
     mut model: impl FnMut(&[f64], &mut [f64]),
     data: &[f64],
@@ -207,7 +228,7 @@ fn fit_stage<F: FnMut(&[f64], &mut [f64])>(
     let jacobian = problem.jacobian(&point, params.difference);
     let freedom = (data.len() - n).max(1) as f64;
     let normal = jacobian.tr_mul(&jacobian);
-    // Directions that the data do not see get an infinite deviation, not a panic.
+    // Directions that the data do not determine get an infinite deviation, not a panic.
     let inverse = normal
         .try_inverse()
         .unwrap_or_else(|| DMatrix::from_diagonal_element(n, n, f64::INFINITY));
@@ -335,7 +356,7 @@ fn descend<F: FnMut(&[f64], &mut [f64])>(
             }
             damping *= 4.0;
             if damping > 1e10 {
-                // No direction descends any more: this is a minimum.
+                // No direction descends any more, so that this is a minimum.
                 return (cost, point, true);
             }
         }
@@ -354,8 +375,8 @@ mod tests {
         }
     }
 
-    /// A damped oscillation: parameters within their stated deviations, which shrink as they
-    /// should; over many noise seeds two thirds lie within one deviation.
+    /// The parameters of a damped oscillation lie within their stated deviations: over many noise seeds, two
+    /// thirds within one deviation.
     #[test]
     fn deviations_are_honest() {
         let truth = [2.0, 0.4, 3.0];
@@ -388,7 +409,7 @@ mod tests {
                 total += 1;
             }
         }
-        // 68 % of 120; three standard deviations of a binomial count are 15.
+        // 68 % of 120 are expected; three standard deviations of a binomial count are 15.
         assert!((67..=97).contains(&within), "{within} of {total}");
     }
 
@@ -433,7 +454,7 @@ mod tests {
             ..params
         };
         assert!(run(&[1.0; 9], &[1.0; 9], &good, &outside).is_err());
-        // A model that always fails is no panic.
+        // A model that always fails does not panic.
         let failing = |_: &[f64], out: &mut [f64]| out.fill(f64::NAN);
         let fit = fit(failing, &[1.0; 9], &[1.0; 9], &good, &FitParams::default()).unwrap();
         assert!(!fit.converged);

@@ -66,7 +66,7 @@ impl Rule {
     /// `n ≥ 1` nodes, the right end among them, exact for polynomials of degree `2n − 2`.
     pub fn radau_right(n: usize) -> Self {
         let count = n as f64;
-        // Mirror image of the left rule, whose nodes are the roots of Pₙ₋₁ + Pₙ.
+        // It is the mirror image of the left rule, whose nodes are the roots of Pₙ₋₁ + Pₙ.
         let mut rule = Self::from_fn(n, |i| {
             let left = n - 1 - i;
             let x = if left == 0 {

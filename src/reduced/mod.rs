@@ -8,6 +8,9 @@
 //! model and track ───────────────► fit ────────────► parameters with uncertainty
 //! ```
 //!
+//! In the order of use: give every coordinate an [`Axis`], state the problem, solve or sample it once, and
+//! evaluate the result ([`Separated`], [`TensorTrain`]) as often as you like.
+//!
 //! * [`solve`] is the thesis's algorithm for linear problems of any number of dimensions: greedy
 //!   enrichment by alternating directions and projection, and, beyond the thesis, updates of all terms,
 //!   which bring them close to the best separation of their number.
@@ -33,7 +36,7 @@
 //! | … separated rates, integrated | 5e-4 | 8e-4 | 1e-3 | 3e-3 |
 //!
 //! and on this crate's own dynamics, [`FreeBody`](crate::FreeBody): a card in air in space under the
-//! thesis' law, over C̃ ± 5 %, density ratio and release angle, with forces separated over the six
+//! thesis's law, over C̃ ± 5 %, density ratio and release angle, with forces separated over the six
 //! coordinates of the motion; and a plate in water in a plane, over density ratio and release angle, under
 //! the default law with a smoother set of coefficients than it has now (under those the plate is chaotic
 //! between flutter and tumbling, as measured, and nothing follows it across):
@@ -54,11 +57,11 @@
 //! | … separated forces, integrated | 9e-3 | .03 | .06 | .01 | 8e-3 |
 //! | … separated flow map over 0.04 s, iterated | .30 | 1.7 | .81 | .94 | 1.0 |
 //!
-//! So: trajectories within one pattern, forces across patterns. Forces are sums of few products in
-//! the right coordinates (incidence, and the spin along and across the velocity), where rates and flow
-//! maps over velocities are not. Nothing follows autorotation for long: 1e-6 rad at the release become a
-//! millimetre in 2 s, and any error grows alike. The default law's flow map is beyond 10⁵ samples because
-//! of its stall and its kinks at rest and at zero spin.
+//! Separate trajectories within one pattern, therefore, and forces across patterns. Forces are sums of few
+//! products in the right coordinates (incidence, and the spin along and across the velocity), where rates and
+//! flow maps over velocities are not. Nothing follows autorotation for long: 1e-6 rad at the release become
+//! a millimetre in 2 s, and any error grows as fast. The default law's flow map takes more than 10⁵ samples
+//! because of its stall and its kinks at rest and at zero spin.
 //!
 //! The short-time forms take 10⁵ to 1.5·10⁶ samples and ten microseconds or more per step, more than the
 //! plate's rates or a step of `FreeBody` cost: they pay only for dynamics that cost more.

@@ -137,6 +137,24 @@ impl Factor {
 }
 
 /// A linear operator Σᵢ D¹ᵢ ⊗ … ⊗ Dᵈᵢ (thesis (6.10)).
+///
+/// [`solve`](super::solve) solves problems with it; applied to a tensor:
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::na::DVector;
+/// use rapier3d_immersed::reduced::{Canonical, Factor, Operator};
+///
+/// // Multiplies entry (i, j) by i + j, in two terms.
+/// let index = DVector::from_vec(vec![0.0, 1.0, 2.0]);
+/// let (index, one) = (Factor::Diagonal(index), Factor::Diagonal(DVector::repeat(3, 1.0)));
+/// let mut operator = Operator::zero(&[3, 3]);
+/// operator.push(vec![index.clone(), one.clone()])?;
+/// operator.push(vec![one, index])?;
+/// let mut ones = Canonical::zeros(&[3, 3]);
+/// ones.push(1.0, &vec![DVector::repeat(3, 1.0); 2])?;
+/// assert_eq!(operator.apply(&ones).at(&[2, 1]), 3.0);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operator {
     shape: Vec<usize>,

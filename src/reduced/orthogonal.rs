@@ -2,8 +2,8 @@
 
 use rapier3d::na::DMatrix;
 
-/// Q and C with matrix = Q C, Q orthonormal columns: as many as the rank, by pivoted QR with pivots
-/// below `tolerance` of the largest dropped. A zero matrix gives no columns.
+/// Q and C with matrix = Q C. Q has orthonormal columns, as many as the rank, by pivoted QR without the
+/// pivots below `tolerance` of the largest. A zero matrix gives no columns.
 ///
 /// nalgebra's singular vectors of a rank-deficient matrix are inaccurate, its pivoted QR is not;
 /// where singular values are needed, take those of C.
@@ -24,7 +24,7 @@ pub(crate) fn column_basis(matrix: &DMatrix<f64>, tolerance: f64) -> (DMatrix<f6
 mod tests {
     use super::*;
 
-    /// Tall, wide, rank-deficient and zero matrices.
+    /// It works for tall, wide, rank-deficient and zero matrices.
     #[test]
     fn the_basis_spans_the_columns() {
         for (rows, columns, rank) in [(9, 4, 2), (4, 9, 3), (6, 6, 6), (5, 3, 0)] {

@@ -11,8 +11,8 @@ pub struct PgdParams {
     pub tolerance: f64,
     /// Most rounds over all dimensions in the search of one new term. Default 12.
     pub fixed_point_rounds: usize,
-    /// That search also stops when the term changes by less than this fraction (thesis (6.13)).
-    /// Default 1e-4: a rough term is good enough where updates follow.
+    /// That search also stops when the term changes by less than this fraction (thesis (6.13)). With the
+    /// default of 1e-4 a term is rough, which is good enough where updates follow.
     pub fixed_point_tolerance: f64,
     /// Rounds over all dimensions, after each enrichment, in which the factors of *all* terms are
     /// solved for together. 0 is the thesis's algorithm; with a few the terms come close to

@@ -11,7 +11,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rapier3d::na::DVector;
 
-/// How the enrichment went. Not to converge is no error.
+/// How the enrichment went. An enrichment that does not converge is no error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PgdReport {
     /// Number of terms of the solution.
@@ -28,6 +28,29 @@ pub struct PgdReport {
 /// ([`Axis::weights`](super::axis::Axis::weights)); the factors are normalised in it, and the
 /// residual of a weak form is measured in its inverse. `A` should be coercive (Galerkin); for any
 /// other, pass [`Operator::normal`] and [`Operator::normal_source`].
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::na::DVector;
+/// use rapier3d_immersed::reduced::{Axis, Canonical, Factor, Operator, Quadrature};
+/// use rapier3d_immersed::reduced::{PgdParams, Separated, solve};
+///
+/// // −k u″ = 1 on (0, 1) with u = 0 at both ends, for every k from 1 to 2 at once.
+/// let x = Axis::elements(0.0, 1.0, 8, 2)?.with_zero_start().with_zero_end();
+/// let k = Axis::spectral(1.0, 2.0, 8)?;
+/// let weights = |axis: &Axis| DVector::from_column_slice(axis.weights());
+/// let stiffness = Factor::Dense(x.matrix(Quadrature::Gauss(3), 1, 1, |_| 1.0));
+/// let mut operator = Operator::zero(&[x.len(), k.len()]);
+/// operator.push(vec![stiffness, Factor::Diagonal(weights(&k).component_mul(&k.sample(|k| k)))])?;
+/// let mut source = Canonical::zeros(&[x.len(), k.len()]);
+/// source.push(1.0, &[x.load(Quadrature::Gauss(3), |_| 1.0), weights(&k)])?;
+///
+/// let metric = [weights(&x), weights(&k)];
+/// let (tensor, report) = solve(&operator, &source, &metric, &PgdParams::default())?;
+/// assert!(report.converged && report.modes == 1);
+/// let u = Separated::new(1, vec![x, k], &tensor)?;
+/// assert!((u.evaluate(&[0.3, 1.6])[0] - 0.5 * 0.3 * 0.7 / 1.6).abs() < 1e-6);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 ///
 /// # Errors
 /// If shapes differ, the metric is not positive, the source not finite or a parameter out of range.
@@ -90,6 +113,25 @@ pub fn solve(
 /// directions that the tensor does not need, and separates what is left anew, with
 /// `params.tolerance` on the relative error. In two dimensions and with enough updates this is the
 /// truncated singular value decomposition.
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::na::DVector;
+/// use rapier3d_immersed::reduced::{Axis, Canonical, PgdParams, Separated, compress};
+///
+/// // sin(x + y), written as the sum of two terms and of a third that is twice the first.
+/// let axis = Axis::spectral(0.0, 1.0, 10)?;
+/// let [sin, cos]: [DVector<f64>; 2] = [f64::sin, f64::cos].map(|f| axis.sample(f));
+/// let mut tensor = Canonical::zeros(&[10, 10]);
+/// tensor.push(-1.0, &[sin.clone(), cos.clone()])?;
+/// tensor.push(1.0, &[cos.clone(), sin.clone()])?;
+/// tensor.push(2.0, &[sin, cos])?;
+/// let wave = Separated::new(1, vec![axis.clone(), axis.clone()], &tensor)?;
+/// let (fewer, _) = compress(&wave.to_canonical(), &wave.metric(), &PgdParams::default())?;
+/// assert_eq!(fewer.rank(), 2);
+/// let wave = Separated::new(1, vec![axis.clone(), axis], &fewer)?;
+/// assert!((wave.evaluate(&[0.2, 0.5])[0] - 0.7_f64.sin()).abs() < 1e-6);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 ///
 /// # Errors
 /// If the metric does not fit or is not positive, or a parameter is out of range.

@@ -39,6 +39,28 @@ pub struct InitialTerm {
 ///
 /// Higher powers and other functions of the state become quadratic when products are added as
 /// components (u³ = u·w with w = u², ẇ = 2u u̇), and an explicit time when time is one (ṫ = 1).
+///
+/// ```
+/// use rapier3d_immersed::reduced::{Axis, InitialTerm, QuadraticSystem, RateTerm, Tolerances};
+///
+/// // u̇ = u² from u = a becomes infinite at t = 1/a.
+/// let system = QuadraticSystem {
+///     components: 1,
+///     parameters: vec![Axis::spectral(0.5, 2.0, 8)?],
+///     initial: vec![InitialTerm { component: 0, coefficient: 1.0, parameters: vec![(0, |a| a)] }],
+///     rates: vec![RateTerm {
+///         component: 0,
+///         coefficient: 1.0,
+///         states: vec![0, 0],
+///         parameters: vec![],
+///     }],
+/// };
+/// let state = system.integrate(&[0.5], 1.0, Tolerances::default()).unwrap();
+/// assert!((state[0] - 1.0).abs() < 1e-6); // a/(1 − a t)
+/// let singularity = system.find_singularity(1.0, 1).unwrap();
+/// assert!((singularity.time - 0.5).abs() < 1e-3); // from a = 2, the earliest
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct QuadraticSystem {
     /// Number of components of u.

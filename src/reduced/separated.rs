@@ -1,4 +1,4 @@
-//! Evaluation of a separated representation: what a baked reduced model is at run time.
+//! Evaluation of a separated representation, which is what remains of a reduced model at run time.
 
 use super::axis::{Axis, MAX_DEGREE};
 use super::canonical::Canonical;
@@ -9,6 +9,21 @@ use rapier3d::na::{DMatrix, DVector};
 /// carries the components, the others are shared by them.
 ///
 /// It was baked over the ranges of its axes; outside of them it is evaluated at their nearer end.
+///
+/// ```
+/// use rapier3d_immersed::reduced::{Axis, Canonical, Separated};
+///
+/// // sin t · e^x as one term.
+/// let (time, x) = (Axis::spectral(0.0, 1.0, 10)?, Axis::spectral(0.0, 2.0, 10)?);
+/// let mut tensor = Canonical::zeros(&[10, 10]);
+/// tensor.push(1.0, &[time.sample(f64::sin), x.sample(f64::exp)])?;
+/// let product = Separated::new(1, vec![time, x], &tensor)?;
+/// let mut value = [0.0];
+/// product.evaluator().evaluate(&[0.3, 1.1], &mut value); // allocates once for many points
+/// assert!((value[0] - 0.3_f64.sin() * 1.1_f64.exp()).abs() < 1e-6);
+/// assert_eq!(product.grid(&[&[0.3, 0.6], &[0.1, 0.5, 1.1]]).len(), 6);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -18,7 +33,7 @@ pub struct Separated {
     pub(crate) components: usize,
     pub(crate) axes: Vec<Axis>,
     pub(crate) weights: Vec<f64>,
-    /// Per axis: node after node the values of all modes; on axis 0, component after component.
+    /// For each axis, the values of all modes, node after node, and on axis 0 component after component.
     pub(crate) factors: Vec<Vec<f64>>,
 }
 
@@ -41,7 +56,7 @@ impl Separated {
         Ok(separated)
     }
 
-    /// What must hold of anything that was built or loaded.
+    /// Checks what must hold of anything that was built or loaded.
     pub(crate) fn check(&self) -> Result<(), Error> {
         Error::check_positive("components", self.components as f64)?;
         Error::check_positive("number of axes", self.axes.len() as f64)?;
@@ -104,7 +119,7 @@ impl Separated {
         (0..count).map(|i| basis[i] * value(i)).sum()
     }
 
-    /// What evaluates single points without allocating.
+    /// An evaluator of single points that does not allocate.
     pub fn evaluator(&self) -> Evaluator<'_> {
         Evaluator {
             separated: self,
@@ -129,8 +144,8 @@ impl Separated {
     ///
     /// The first axis runs fastest and the component slowest: value (c, i₀, i₁, …) is entry
     /// `i₀ + n₀ (i₁ + n₁ (i₂ + … c))`. Each factor is interpolated once per coordinate, not once
-    /// per point, and one matrix product does the rest: this is where a separated representation
-    /// beats solving for every point (thesis Fig. 6.7b).
+    /// per point, and one matrix product does the rest: here a separated representation is much cheaper
+    /// than solving for every point (thesis Fig. 6.7b).
     ///
     /// # Panics
     /// If there is not one list per axis.
@@ -184,8 +199,8 @@ impl Separated {
         self.axes[axis].interpolation_matrix(points) * values
     }
 
-    /// The same function on other axes: its factors interpolated there. On meshes of low degree a
-    /// point costs less; the error of their interpolation adds.
+    /// The same function on other axes, to which its factors are interpolated. On meshes of low degree a
+    /// point costs less, at the price of the interpolation's error.
     ///
     /// # Errors
     /// If there is not one axis per axis.
@@ -341,7 +356,7 @@ mod tests {
                 for t in lists[0] {
                     let value = separated.evaluate(&[*t, *x, *y]);
                     let rest = (1.0 + x) * y * y;
-                    // Interpolation of the sine by sextic elements of length 2/3: about 1e-8.
+                    // The sine is interpolated by sextic elements of length 2/3, to about 1e-8.
                     assert!((value[0] - t.sin() * rest).abs() < 1e-6);
                     assert!((value[1] - t.cos() * rest).abs() < 1e-6);
                     for (component, c) in value.iter().enumerate() {

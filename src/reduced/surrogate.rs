@@ -8,8 +8,27 @@ use crate::error::Error;
 
 /// Whole trajectories as a tensor train over parameters, initial values among them.
 ///
-/// Accurate as long as all trajectories of the domain stay alike; where motion patterns change
+/// It is accurate as long as all trajectories of the domain stay alike; where motion patterns change
 /// within it, the trajectories of the two sides part, and the ranks grow without bound.
+///
+/// ```
+/// use rapier3d_immersed::reduced::{Axis, CrossParams, TrajectorySurrogate};
+///
+/// // Where x = cos ωt and its rate are, for every ω from 1 to 2.
+/// let model = |omega: &[f64], times: &[f64], states: &mut [f64]| {
+///     for (state, time) in states.chunks_exact_mut(2).zip(times) {
+///         let (sin, cos) = (omega[0] * time).sin_cos();
+///         state.copy_from_slice(&[cos, -omega[0] * sin]);
+///     }
+/// };
+/// let (time, omega) = (Axis::spectral(0.0, 3.0, 16)?, Axis::spectral(1.0, 2.0, 12)?);
+/// let (surrogate, report) =
+///     TrajectorySurrogate::bake(time, 2, vec![omega], model, &CrossParams::default())?;
+/// assert!(report.converged);
+/// let state = surrogate.evaluate(&[1.23], &[2.5]);
+/// assert!((state[0] - (1.23_f64 * 2.5).cos()).abs() < 1e-5);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -22,11 +41,11 @@ pub struct TrajectorySurrogate {
 }
 
 impl TrajectorySurrogate {
-    /// Learns `model(parameters, times, states)`, which writes the states at all `times` (the
+    /// Samples `model(parameters, times, states)`, which writes the states at all `times` (the
     /// nodes of `time`), one after the other with `components` entries each.
     ///
     /// # Errors
-    /// As [`cross`].
+    /// Those of [`cross()`].
     pub fn bake(
         time: Axis,
         components: usize,
@@ -95,11 +114,28 @@ impl TrajectorySurrogate {
 /// The map from a state to the state a fixed time later, as a tensor train over the state and
 /// parameters: iterated, it follows any sequence of motions.
 ///
-/// Its error is one of each step, as of an integrator, so patterns and their statistics survive
-/// where [`TrajectorySurrogate`] fails; two neighbouring chaotic trajectories part as ever. It
-/// costs Σ rank² · nodes per step, and pays only where the dynamics it stands for cost more.
+/// It makes an error in each step, like an integrator, so that patterns and their statistics survive
+/// where [`TrajectorySurrogate`] fails; neighbouring chaotic trajectories still part. It costs
+/// Σ rank² · nodes per step, and pays only where the dynamics it stands for cost more.
 ///
 /// A state outside of the axes changes as at their nearer end: bake them as wide as the motion is.
+///
+/// ```
+/// use rapier3d_immersed::reduced::{Axis, CrossParams, FlowMap};
+///
+/// // u̇ = −u² over steps of 0.1 s: u becomes u/(1 + 0.1 u).
+/// let model = |u: &[f64], _: &[f64], change: &mut [f64]| change[0] = u[0] / (1.0 + 0.1 * u[0]) - u[0];
+/// let u = Axis::spectral(0.0, 1.0, 12)?;
+/// let (map, report) = FlowMap::bake(0.1, vec![u], Vec::new(), 0, model, &CrossParams::default())?;
+/// assert!(report.converged);
+/// let (mut u, mut change, mut scratch) = ([1.0], [0.0], Vec::new());
+/// for _ in 0..20 {
+///     map.change(&u, &[], &mut change, &mut scratch);
+///     u[0] += change[0];
+/// }
+/// assert!((u[0] - 1.0 / 3.0).abs() < 1e-6); // 1/(1 + t) at t = 2
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -112,12 +148,12 @@ pub struct FlowMap {
 }
 
 impl FlowMap {
-    /// Learns `model(state, parameters, change)`, which writes what `step` seconds change: first
+    /// Samples `model(state, parameters, change)`, which writes what `step` seconds change: first
     /// that of every component of the state, then of any further quantities (such as the
     /// position, which the rates do not depend on).
     ///
     /// # Errors
-    /// As [`cross`]; `step` must be positive.
+    /// Those of [`cross()`]; `step` must be positive.
     pub fn bake(
         step: f64,
         state: Vec<Axis>,

@@ -1,5 +1,5 @@
-//! Tensor trains: separated functions that survive many coordinates and high rank, learned by
-//! sampling a black box on well chosen lines (cross approximation).
+//! Tensor trains: separated functions of many coordinates and high rank, made by sampling a black box on
+//! well chosen lines (cross approximation).
 
 use super::axis::{Axis, MAX_DEGREE};
 use super::orthogonal::column_basis;
@@ -15,13 +15,13 @@ use rapier3d::na::{DMatrix, DVector};
 pub(crate) struct Core {
     pub left: usize,
     pub right: usize,
-    /// `[node][left][right]`.
+    /// The matrices, indexed `[node][left][right]`.
     pub entries: Vec<f64>,
 }
 
 impl Core {
     pub fn from_unfolding(unfolding: &DMatrix<f64>, left: usize) -> Self {
-        // Row l + left · node of the unfolding, column r.
+        // The entry is in row l + left · node of the unfolding and in column r.
         let transposed = unfolding.transpose();
         Self {
             left,
@@ -39,7 +39,21 @@ impl Core {
 /// A vector-valued function of several coordinates, G¹(x₁) G²(x₂) … Gᵈ(x_d) · outputs, each Gʲ a
 /// matrix that depends on one coordinate (Oseledets 2011).
 ///
-/// Outside of the ranges of its axes it is evaluated at their nearer end.
+/// Outside of the ranges of its axes it is evaluated at their nearer end. [`cross()`](super::cross()) makes
+/// one:
+///
+/// ```
+/// use rapier3d_immersed::reduced::{Axis, CrossParams, cross};
+///
+/// // The sum of three numbers has rank two.
+/// let axes = vec![Axis::spectral(0.0, 1.0, 4)?; 3];
+/// let function = |x: &[f64], out: &mut [f64]| out[0] = x[0] + x[1] + x[2];
+/// let (train, _) = cross(axes, 1, function, &CrossParams::default())?;
+/// let train = train.rounded(1e-9);
+/// assert_eq!(train.ranks(), [2, 2, 1]);
+/// assert!((train.evaluate(&[0.1, 0.2, 0.4])[0] - 0.7).abs() < 1e-9);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -136,7 +150,7 @@ impl TensorTrain {
     /// The value at `point`.
     ///
     /// # Panics
-    /// As [`TensorTrain::evaluate_into`].
+    /// If `point` has not one coordinate per axis.
     pub fn evaluate(&self, point: &[f64]) -> Vec<f64> {
         let mut value = vec![0.0; self.outputs];
         self.evaluate_into(point, &mut value, &mut Vec::new());
@@ -165,7 +179,7 @@ impl TensorTrain {
         for k in (1..=last).rev() {
             let core = &cores[k];
             let nodes = core.entries.len() / (core.left * core.right);
-            // Rows: left rank; columns: node and right rank.
+            // Rows are the left rank; columns are node and right rank.
             let matrix = DMatrix::from_fn(core.left, nodes * core.right, |l, c| {
                 core.entries[(c / core.right * core.left + l) * core.right + c % core.right]
             });

@@ -12,6 +12,23 @@ use crate::motion::Pattern;
 /// steady descent, the farthest autorotation, and of the two between the nearer is the zigzag (thesis
 /// Fig. 5.7, by its list of figures: SD 1.25, ZZ 5.69, AZ 13.72, AR 22.43, taken as cm; the caption itself
 /// repeats 1.25 for AZ).
+///
+/// ```
+/// use rapier3d_immersed::motion::{Pattern, Regime};
+/// use rapier3d_immersed::training::{Clusters, Sample};
+///
+/// // Centers of a leaf of L = 3.5 cm at the distances of thesis Fig. 5.7.
+/// let [sd, ar, az, zz] = [0.0125, 0.2243, 0.1372, 0.0569].map(|d: f64| [(d / 0.035 + 0.1).log10(), 0.9]);
+/// let clusters = Clusters { length: 0.035, centers: [sd, ar, az, zz] };
+/// let far = Sample {
+///     distance: 0.3,
+///     eccentricity: 0.9,
+///     regime: Regime::PeriodicTumbling,
+///     simulated: true,
+/// };
+/// assert_eq!(clusters.label(&far), Pattern::Autorotation);
+/// assert_eq!(clusters.agreement([&far]), 1.0); // the direct classifier says tumbling, too
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -70,6 +87,23 @@ impl Clusters {
 #[cfg(feature = "bake")]
 impl Clusters {
     /// Finds the clusters of samples by k-means, the best of several seeded starts.
+    ///
+    /// ```
+    /// use rapier3d_immersed::motion::Regime;
+    /// use rapier3d_immersed::training::{Clusters, Sample};
+    ///
+    /// let sample = |distance| Sample {
+    ///     distance,
+    ///     eccentricity: 0.9,
+    ///     regime: Regime::PeriodicFlutter,
+    ///     simulated: true,
+    /// };
+    /// let near_and_far = [0.01, 0.011, 0.05, 0.055, 0.15, 0.16, 0.4, 0.42].map(sample);
+    /// let clusters = Clusters::find(&near_and_far, 0.035, 1)?;
+    /// let labels = near_and_far.map(|sample| clusters.label(&sample).abbreviation());
+    /// assert_eq!(labels, ["SD", "SD", "ZZ", "ZZ", "AZ", "AZ", "AR", "AR"]);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::InvalidParameter`] if `length` (m) is not positive or a sample's d or e is not finite;

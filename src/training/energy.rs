@@ -14,7 +14,23 @@ use rapier3d::na::{Matrix2, Matrix3, Vector2, Vector3};
 /// A box of control parameters: low and high by parameter.
 pub type ControlBox = [[f64; 2]; 3];
 
-/// ‖A c̃ − b‖² + μ‖c̃ − c̃₀‖² of one interval.
+/// The planner's objective in one interval, ‖A c̃ − b‖² + μ‖c̃ − c̃₀‖².
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::na::{Matrix3, Vector3};
+/// use rapier3d_immersed::training::EnergyObjective;
+///
+/// let objective = EnergyObjective {
+///     gains: Matrix3::identity(),
+///     target: Vector3::new(0.5, 2.0, 0.5),
+///     previous: Vector3::zeros(),
+///     inertia: 1e-9,
+/// };
+/// // Of the unit box, the point nearest to the target lies on a face.
+/// let minimum = objective.minimum(&[[[0.0, 1.0]; 3]]).unwrap();
+/// assert!((minimum - Vector3::new(0.5, 1.0, 0.5)).norm() < 1e-6);
+/// assert!((objective.cost(&minimum) - 1.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnergyObjective {
     /// A: change of velocity per unit of each control parameter, m/s, column by column.
@@ -79,7 +95,7 @@ impl EnergyObjective {
         let inverse = gram.try_inverse()?;
         let free = inverse * rhs;
         let free_cost = self.cost(&free);
-        // With one parameter held, the others free, the objective grows by distance²/(G⁻¹)ᵢᵢ.
+        // If one parameter is held and the others are free, the objective grows by distance²/(G⁻¹)ᵢᵢ.
         let bound = |cell: &ControlBox| {
             let grow = |i: usize| {
                 let away = free[i].clamp(cell[i][0], cell[i][1]) - free[i];
@@ -102,7 +118,7 @@ impl EnergyObjective {
     }
 }
 
-/// Minimum of ½cᵀGc − rᵀc in a box, G positive definite with the unbounded minimum `free`: the best of
+/// The minimum of ½cᵀGc − rᵀc in a box, G positive definite with the unbounded minimum `free`: the best of
 /// the stationary points on the box's inside, faces, edges and corners that lie in the box.
 fn minimum_in(
     gram: &Matrix3<f64>,
@@ -125,7 +141,7 @@ fn minimum_in(
     for held in 0..3 {
         let (j, k) = ((held + 1) % 3, (held + 2) % 3);
         for bound in cell[held] {
-            // Face: two parameters free.
+            // On a face two parameters are free.
             let part = Matrix2::new(gram[(j, j)], gram[(j, k)], gram[(j, k)], gram[(k, k)]);
             let r = Vector2::new(
                 rhs[j] - gram[(j, held)] * bound,
@@ -139,7 +155,7 @@ fn minimum_in(
                     consider(c);
                 }
             }
-            // Edges and, by clamping, corners: one parameter free.
+            // On an edge one parameter is free; clamping it gives the corners.
             for other in cell[j] {
                 let x = (rhs[k] - gram[(k, held)] * bound - gram[(k, j)] * other) / gram[(k, k)];
                 let mut c = Vector3::zeros();
@@ -169,8 +185,7 @@ mod tests {
         }
     }
 
-    /// No point of any box is better than the minimum: against an even search of every box, and the
-    /// minimum is a member.
+    /// The minimum lies in a box, and no point of an even search of every box is better.
     #[test]
     fn nothing_beats_the_minimum() {
         let mut random = Pcg64Mcg::seed_from_u64(2);

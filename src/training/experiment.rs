@@ -13,7 +13,21 @@ use rapier3d::geometry::SharedShape;
 use rapier3d::math::Rotation;
 use rapier3d::na::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
-/// How a body is let go. World axes, y up; lying flat its normal is y and its long axis x.
+/// How a body is let go, in world axes with y up. A body that lies flat has its normal along y and its long
+/// axis along x.
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+/// use rapier3d_immersed::training::{Release, thin_ellipsoid};
+///
+/// // Edge down: turned by 90° about its long axis, which stays horizontal.
+/// let quarter = std::f64::consts::FRAC_PI_2;
+/// let release = Release { tilt: quarter, tilt_axis: quarter, ..Release::default() };
+/// let (leaf, _) = thin_ellipsoid([0.035, 0.02, 0.0002], 800.0)?;
+/// let normal = release.orientation(&leaf) * leaf.planform.axes * Vector3::z();
+/// assert!(normal.y.abs() < 1e-9);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -63,7 +77,7 @@ impl Release {
         )
     }
 
-    /// The same as rapier's rotation, for a body whose frame `hydro` refers to.
+    /// [`Release::orientation`] as rapier's rotation, for a body whose frame `hydro` refers to.
     pub fn rotation(&self, hydro: &HydroProperties) -> Rotation {
         to_rotation(self.orientation(hydro))
     }
@@ -80,17 +94,36 @@ impl Release {
 }
 
 /// A body, a release, and how long and how finely its fall is computed.
+///
+/// ```
+/// use rapier3d_immersed::Fluid;
+/// use rapier3d_immersed::motion::Classifier;
+/// use rapier3d_immersed::training::{Experiment, thin_ellipsoid};
+///
+/// // A leaf of 7 × 4 cm in air, let go at 30°.
+/// let (hydro, mass) = thin_ellipsoid([0.035, 0.02, 0.0002], 400.0)?;
+/// let mut experiment = Experiment::new(hydro, mass, Fluid::AIR);
+/// experiment.release.tilt = 30f64.to_radians();
+/// experiment.seconds = 2.0;
+/// let fall = experiment.run()?;
+/// assert_eq!(fall.moments.len(), 241); // 120 a second, and the release
+/// // It falls at about a meter a second, far more slowly than a stone.
+/// let descent = -fall.moments[240].position.y / 2.0;
+/// assert!((0.5..1.5).contains(&descent));
+/// println!("{:?}", Classifier::default().classify(&fall).regime);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct Experiment {
-    /// What falls, under which law.
+    /// The body that falls, and its law.
     pub body: ImmersedBody,
-    /// Its own mass.
+    /// The body's own mass.
     pub mass: DryMass,
-    /// What it falls through.
+    /// The fluid that it falls through.
     pub fluid: Fluid,
     /// Gravity along −y, m/s² (default 9.81).
     pub gravity: f64,
@@ -138,8 +171,8 @@ impl Experiment {
         Self::of_ellipsoid([0.0365, 0.021, 0.00015], 400.0, law)
     }
 
-    /// The same computed finely enough for labels: steps of 1/240 s in substeps of a tenth of a chord with
-    /// two evaluations each.
+    /// The same experiment, computed finely enough for labels: steps of 1/240 s in substeps of a tenth of a
+    /// chord with two evaluations each.
     ///
     /// A finer step still changes labels, because chaos makes the boundaries between patterns fuzzy; with
     /// this one, as many as a milliradian at the release does (of 729: 16 and 17 for the card under the
@@ -201,7 +234,7 @@ impl Experiment {
         Ok(self.fall(self.released()?))
     }
 
-    /// Drops a body on from the state it is in.
+    /// Drops a body from the state it is in.
     pub fn fall(&self, mut body: FreeBody) -> Trajectory {
         let (steps, gravity) = (self.steps(), self.gravity_vector());
         let mut moments = Vec::with_capacity(steps + 1);
@@ -230,6 +263,16 @@ impl Moment {
 
 /// A solid ellipsoid, semi-axes in m along x, y, z of its frame, density in kg/m³. The thesis computes
 /// with such proxies.
+///
+/// ```
+/// use rapier3d_immersed::training::thin_ellipsoid;
+///
+/// let (hydro, mass) = thin_ellipsoid([0.035, 0.02, 0.0002], 800.0)?;
+/// let volume = 4.0 / 3.0 * std::f64::consts::PI * 0.035 * 0.02 * 0.0002;
+/// assert!((mass.mass / (800.0 * volume) - 1.0).abs() < 1e-12);
+/// assert!((hydro.volume / volume - 1.0).abs() < 1e-6);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 ///
 /// # Errors
 /// [`Error::InvalidParameter`] if a semi-axis or the density is not positive and finite.

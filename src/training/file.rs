@@ -17,7 +17,7 @@ const SUBSPACES: FileKind = FileKind {
 };
 
 impl Sweep {
-    /// This as the bytes of a file: complete or not.
+    /// The bytes of a file that holds this sweep, complete or not.
     pub fn to_bytes(&self) -> Vec<u8> {
         encode(&SWEEP, self)
     }
@@ -81,7 +81,7 @@ mod tests {
         for length in 0..bytes.len() {
             assert!(Sweep::from_bytes(&bytes[..length]).is_err());
         }
-        // Rightly framed nonsense.
+        // The frame of the file is right, its content is not.
         let nonsense = |distance, eccentricity| {
             let mut bad = sweep.clone();
             let bad_sample = |_: &[f64]| {

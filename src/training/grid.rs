@@ -31,7 +31,7 @@ impl Axis {
     /// The node nearest to a value.
     pub fn nearest(&self, value: f64) -> usize {
         let node = ((value - self.low) / self.spacing()).round();
-        // NaN becomes the first node.
+        // The maximum of NaN and 0 is 0, the first node.
         (node.max(0.0) as usize).min(self.count - 1)
     }
 
@@ -46,6 +46,19 @@ impl Axis {
 }
 
 /// Nodes at every combination of the axes' values; the last axis varies fastest.
+///
+/// ```
+/// use rapier3d_immersed::training::{Axis, Grid};
+///
+/// let drag = Axis { low: 0.5, high: 2.5, count: 5 };
+/// let lift = Axis { low: 0.0, high: 1.0, count: 3 };
+/// let grid = Grid::new(vec![drag, lift])?;
+/// assert_eq!(grid.len(), 15);
+/// assert_eq!(grid.point(4), [1.0, 0.5]);
+/// assert_eq!(grid.nearest(&[1.1, 0.4]), 4);
+/// assert_eq!(grid.refined()?.len(), 9 * 5);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -74,7 +87,7 @@ impl Grid {
     /// leaves out the two per cent next to 0, where a force is absent.
     ///
     /// # Errors
-    /// As [`Grid::new`].
+    /// Those of [`Grid::new`].
     pub fn of_coefficients(count: usize, limit: f64) -> Result<Self, Error> {
         let axis = Axis {
             low: 0.02 * limit,
@@ -108,7 +121,7 @@ impl Grid {
         self.axes.iter().map(|axis| axis.count).product()
     }
 
-    /// Never: a grid has at least two nodes.
+    /// Always false: a grid has at least two nodes.
     pub fn is_empty(&self) -> bool {
         false
     }
@@ -161,7 +174,7 @@ impl Grid {
         found
     }
 
-    /// Twice as fine: a node halfway between any two.
+    /// A grid that is twice as fine, with a node halfway between any two.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if that is more than 10⁷ nodes.

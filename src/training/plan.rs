@@ -1,4 +1,4 @@
-//! What goes into a plan, and what comes out.
+//! The parameters of a plan, and the plan.
 
 use super::energy::{ControlBox, EnergyObjective};
 use crate::error::Error;
@@ -6,21 +6,29 @@ use crate::motion::{Classifier, ControlSeries, Pattern, Trajectory, TurnFinder};
 use crate::turbulence::Turbulence;
 
 /// How plans are made.
+///
+/// ```
+/// use rapier3d_immersed::training::PlannerParams;
+///
+/// // Long plans with short dwells, which need not hold for releases that are a little off.
+/// let params = PlannerParams { seconds: 20.0, least_turns: 2, shaken: 0, ..PlannerParams::default() };
+/// assert_eq!(params.tries, 32);
+/// ```
 #[derive(Clone, Debug)]
 pub struct PlannerParams {
     /// A plan ends with the first dwell that is over after this time, s (default 4).
     pub seconds: f64,
     /// Time that a control is held, s (default 1/30): a whole number of the experiment's steps.
     pub interval: f64,
-    /// Turns of a dwell at least (default 3).
+    /// Least number of turns in a dwell (default 3).
     pub least_turns: u32,
-    /// Length of a dwell at least, s (default 1.2).
+    /// Least length of a dwell, s (default 1.2).
     pub least_dwell: f64,
     /// Length of a dwell that does not turn, as in steady descent, s (default 1).
     pub steady_dwell: f64,
-    /// Length of a dwell at most, s (default 3).
+    /// Largest length of a dwell, s (default 3).
     pub longest_dwell: f64,
-    /// See [`TurnFinder`] (default [`TurnFinder::TOLERANCE`]).
+    /// Tolerance of the [`TurnFinder`] (default [`TurnFinder::TOLERANCE`]).
     pub turn_tolerance: f64,
     /// How far from its anchor a dwell's controls may be, in spacings of the subspaces' grid along each
     /// axis (default 1). Infinite leaves the whole subspace to the optimisation, as in the thesis;
@@ -28,12 +36,12 @@ pub struct PlannerParams {
     pub reach: f64,
     /// Anchors that are tried for a dwell (default 32).
     pub tries: u32,
-    /// Shaken copies of the release that must show the pattern, too (default 5).
+    /// Number of copies of the release, turned a little, that must show the pattern as well (default 5).
     pub shaken: usize,
-    /// By how much they are turned, rad (default 0.03).
+    /// By how much these copies are turned, rad (default 0.03).
     pub shake: f64,
-    /// The turbulence that the energy objective follows; `None` for one of 10 % of U0 with eddies of
-    /// the body's length. The thesis has 100 % (default `None`).
+    /// The turbulence that the energy objective follows; `None` (the default) stands for one of 10 % of U0
+    /// with eddies of the body's length. The thesis has 100 %.
     pub turbulence: Option<Turbulence>,
     /// What decides whether a dwell shows its pattern.
     pub classifier: Classifier,
@@ -82,9 +90,9 @@ pub struct DwellReport {
     pub planned: Pattern,
     /// What the direct classifier sees, for the planned release.
     pub observed: Pattern,
-    /// Of how many releases, the planned one and the shaken, it sees the planned pattern …
+    /// Number of releases, among the planned one and its copies, in which it sees the planned pattern.
     pub shown: usize,
-    /// … of so many.
+    /// Number of releases in all.
     pub releases: usize,
     /// Anchors that were tried.
     pub tries: u32,

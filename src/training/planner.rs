@@ -7,12 +7,12 @@
 //!
 //! The thesis trusts that a point of a pattern's subspace shows the pattern whatever came before. It was
 //! trained from rest, though, and a tumbling body that is given the parameters of flutter may tumble on.
-//! So each dwell is watched: it counts if the direct classifier sees the planned pattern in it, for the
-//! planned release and for shaken ones; otherwise another anchor and another draw of the noise are
+//! So each dwell is checked: it counts if the direct classifier sees the planned pattern in it, for the
+//! planned release and for others near it; otherwise another anchor and another draw of the noise are
 //! tried. Draws of *patterns* are never repeated, so that their statistics stay those of the graph.
 //!
 //! Measured (test `patterns`, 200 plans for a leaf played back in rapier): the sequence that is seen is
-//! the planned one in 183 of 200 runs, in about 60 without watching.
+//! the planned one in 183 of 200 runs, and in about 60 without these checks.
 
 use super::energy::{ControlBox, EnergyObjective};
 use super::experiment::Experiment;
@@ -32,29 +32,47 @@ use rand_pcg::Pcg64Mcg;
 use rapier3d::na::{UnitQuaternion, Vector3};
 
 /// Makes plans for one body.
+///
+/// ```
+/// use rapier3d_immersed::ThesisLaw;
+/// use rapier3d_immersed::motion::{MotionGraph, Pattern};
+/// use rapier3d_immersed::training::{Experiment, Grid, Planner, PlannerParams, Subspaces};
+///
+/// // Subspaces usually come from a sweep; here every control is said to make the body flutter.
+/// let experiment = Experiment::thesis_card(ThesisLaw::new(ThesisLaw::ZIGZAG))?;
+/// let grid = Grid::of_coefficients(2, 3.0)?;
+/// let subspaces = Subspaces::new(grid, vec![Pattern::Zigzag; 8])?;
+/// let params = PlannerParams { seconds: 0.5, tries: 1, shaken: 0, ..PlannerParams::default() };
+/// let planner = Planner::new(experiment, subspaces, &MotionGraph::thesis(), params)?;
+/// // Patterns that the body never shows are never planned.
+/// let plan = planner.plan(1)?;
+/// assert_eq!(plan.series.sequence(), [Pattern::Zigzag]);
+/// assert!(planner.plan_sequence(&[Pattern::SteadyDescent], 1).is_err());
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Planner {
     experiment: Experiment,
     subspaces: Subspaces,
     graph: MotionGraph,
     params: PlannerParams,
-    /// By pattern: nodes that anchors are drawn from.
+    /// The nodes from which anchors are drawn, by pattern.
     anchors: [Vec<usize>; 4],
     turbulence: Turbulence,
     length: f64,
     steps: usize,
 }
 
-/// Where a plan has got to.
+/// The state of a plan that is being made.
 #[derive(Clone)]
 struct Flight {
-    /// The planned release, then the shaken ones.
+    /// The body as planned, then its copies of other releases.
     bodies: Vec<FreeBody>,
     turns: TurnFinder,
     time: f64,
 }
 
-/// A dwell that was tried.
+/// One try of a dwell.
 struct Attempt {
     flight: Flight,
     controls: Vec<ForceFactors>,
@@ -304,7 +322,7 @@ impl Planner {
         loop {
             let objective = self.objective(&flight, random);
             if let Some(minimum) = objective.minimum(&boxes) {
-                // As it is saved, in f32.
+                // The control is rounded to f32, as it is saved.
                 let factors = ForceFactors::<f64>::from(<[f64; 3]>::from(minimum));
                 let control = ForceFactors::<f32>::from(factors);
                 for body in &mut flight.bodies {

@@ -2,13 +2,13 @@
 //! by a user, through rapier (thesis § 7.3).
 //!
 //! # How
-//! Falling bodies forget: what a control does a second later is chaotic, so that one long optimisation
-//! over the whole fall has no gradient to speak of. The path is therefore followed window by window, a
-//! short horizon ahead (receding horizon): at every interval sequences of controls are drawn around the
-//! best so far, flown by the free body, and the best ones kept (cross-entropy method); the first control
-//! of the winner is then flown **in rapier**, and the next window begins from where rapier got. What is
-//! returned is what rapier was given: replayed from the same release in a world with the same time step
-//! it flies the same path.
+//! What a control does to a falling body a second later is chaotic, so that one long optimisation over the
+//! whole fall has no useful gradient. The path is therefore followed window by window, a short horizon
+//! ahead (receding horizon): at every interval sequences of controls are drawn around the
+//! best so far, tried with the free body, and the best ones kept (cross-entropy method); the first control
+//! of the best sequence is then applied **in rapier**, and the next window begins from where rapier got.
+//! The series that is returned is the one that rapier was given: replayed from the same release in a world
+//! with the same time step, the body takes the same path.
 //!
 //! Besides the release's velocity and heading only the body's three force factors are steered: nothing
 //! pushes the body, and contacts go on.
@@ -29,22 +29,29 @@ use rapier3d::geometry::ColliderBuilder;
 use rapier3d::na::Vector3;
 
 /// How a sketch is followed.
+///
+/// ```
+/// use rapier3d_immersed::training::FollowParams;
+///
+/// // A search that takes a quarter of the time.
+/// let coarse = FollowParams { samples: 48, rounds: 2, ..FollowParams::default() };
+/// assert!(coarse.elites < coarse.samples);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FollowParams {
     /// Time that a control is held, s (default 1/20).
     pub interval: f64,
     /// Intervals looked ahead (default 10).
     pub horizon: usize,
-    /// Sequences flown in a round (default 96) …
+    /// Sequences that are tried in a round (default 96).
     pub samples: usize,
-    /// … of which so many are kept (default 8) …
+    /// Sequences that are kept of a round (default 8).
     pub elites: usize,
-    /// … and rounds per interval (default 4).
+    /// Rounds per interval (default 4).
     pub rounds: usize,
     /// Largest factor on the drag, and on the lifts of either sign (default π).
     pub limit: f64,
-    /// Whether lifts may act the other way round, too (default false: the thesis's parameters are
-    /// positive).
+    /// Whether lifts may also be reversed (default false: the thesis's parameters are positive).
     pub reverse_lifts: bool,
     /// Seed of the search (default 1).
     pub seed: u64,
@@ -89,11 +96,11 @@ pub struct Followed {
     pub series: ControlSeries,
     /// Where the body was in rapier, at every time step from the release on, m.
     pub path: Vec<Vector3<f64>>,
-    /// Mean distance from the sketch at equal times, m …
+    /// Mean distance from the sketch at equal times, m.
     pub mean_distance: f64,
-    /// … largest, m …
+    /// Largest distance from the sketch, m.
     pub largest_distance: f64,
-    /// … and distance at each of the sketch's points, m.
+    /// Distance from the sketch at each of its points, m.
     pub at_points: Vec<f64>,
 }
 
@@ -102,8 +109,22 @@ impl Sketch {
     /// body falls broadside; times are shared out by descent.
     ///
     /// # Errors
-    /// Those of [`Sketch::new`] and [`DimensionlessNumbers::of`]; [`Error::InvalidParameter`] if a point is not below
-    /// the one before.
+    /// Those of [`Sketch::new`] and [`DimensionlessNumbers::of`]; [`Error::InvalidParameter`] if a point is
+    /// not below the one before.
+    ///
+    /// ```
+    /// use rapier3d_immersed::ThesisLaw;
+    /// use rapier3d_immersed::motion::Sketch;
+    /// use rapier3d_immersed::rapier3d::na::Vector3;
+    /// use rapier3d_immersed::training::Experiment;
+    ///
+    /// let leaf = Experiment::thesis_leaf(ThesisLaw::new(ThesisLaw::ZIGZAG))?;
+    /// let (start, passes) = (Vector3::y() * 2.0, [Vector3::new(0.3, 1.0, 0.0)]);
+    /// let sketch = Sketch::landing(&leaf, start, &passes, Vector3::zeros())?;
+    /// // The first meter takes as long as the second.
+    /// assert!((sketch.at(0.5 * sketch.duration()) - passes[0]).norm() < 1e-9);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn landing(
         experiment: &Experiment,
         start: Vector3<f64>,
@@ -136,11 +157,33 @@ impl Sketch {
     }
 
     /// Finds a release and a series with which the body of `experiment`, in rapier with this `collider`,
-    /// follows this path at the experiment's time step. Release angle and spin are the experiment's, its velocity that of
-    /// the path, its heading the best of eight.
+    /// follows this path at the experiment's time step. Release angle and spin are the experiment's, the
+    /// velocity is that of the path, and the heading the best of eight.
     ///
-    /// That the path cannot be followed is no error: see the distances. Bodies cannot climb, and turn
-    /// only as their lifts let them.
+    /// A path that cannot be followed is no error: the distances tell. Bodies cannot climb, and turn only as
+    /// their lifts let them.
+    ///
+    /// ```
+    /// use rapier3d_immersed::motion::Sketch;
+    /// use rapier3d_immersed::rapier3d::{na::Vector3, prelude::*};
+    /// use rapier3d_immersed::training::{Experiment, FollowParams};
+    /// use rapier3d_immersed::{DryMass, Fluid, HydroProperties};
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let collider = ColliderBuilder::cuboid(0.0365, 0.00015, 0.021).density(400.0);
+    /// let (leaf, _) = world.insert(RigidBodyBuilder::dynamic(), collider.clone());
+    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaf)?;
+    /// let mass = DryMass::of_body(&world.bodies, &world.colliders, leaf)?;
+    /// let experiment = Experiment::new(hydro, mass, Fluid::AIR);
+    ///
+    /// let end = Vector3::new(0.15, -0.4, 0.0);
+    /// let sketch = Sketch::new(vec![(0.0, Vector3::zeros()), (0.5, end)])?;
+    /// let params = FollowParams { samples: 32, rounds: 2, ..FollowParams::default() };
+    /// let followed = sketch.follow(&experiment, collider, &params)?;
+    /// assert!(followed.mean_distance < 0.073); // the leaf's length
+    /// // At run time: release the leaf as `followed.release` says and replay `followed.series`.
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::InvalidParameter`] or [`Error::OutOfRange`] names a parameter that cannot be; those of
@@ -258,7 +301,7 @@ impl Search<'_> {
             }
         }
         let slope = (self.sketch.at(now + 1e-3) - self.sketch.at(now - 1e-3)) / 2e-3;
-        // A velocity that is wrong at the end is a distance an interval later.
+        // An error of the velocity at the end becomes a distance an interval later.
         let later = (body.linear_velocity() - slope) * (self.steps as f64 * self.dt);
         let cost = cost / (controls.len() * self.steps) as f64 + later.norm_squared();
         if cost.is_finite() {
@@ -268,8 +311,8 @@ impl Search<'_> {
         }
     }
 
-    /// The cost of the best controls found and the first of them; `mean` is where the search starts, and
-    /// is left at them.
+    /// The cost of the best controls found, and the first of them. The search starts from `mean`, which is
+    /// then set to these controls.
     fn best(
         &self,
         trial: &FreeBody,

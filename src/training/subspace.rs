@@ -6,6 +6,20 @@ use crate::motion::Pattern;
 use rand::{Rng, RngExt};
 
 /// A labelled grid: every point of the parameter space belongs to the pattern of its nearest node.
+///
+/// ```
+/// use rapier3d_immersed::motion::Pattern;
+/// use rapier3d_immersed::training::{Axis, Grid, Subspaces};
+///
+/// let drag = Axis { low: 0.0, high: 3.0, count: 4 };
+/// let labels = [Pattern::Autorotation, Pattern::Zigzag, Pattern::Zigzag, Pattern::SteadyDescent];
+/// let subspaces = Subspaces::new(Grid::new(vec![drag])?, labels.to_vec())?;
+/// assert_eq!(subspaces.pattern_at(&[1.8]), Pattern::Zigzag);
+/// assert_eq!(subspaces.nearest(Pattern::SteadyDescent, &[1.0]), Some(3));
+/// // By volume: cells at the ends are half as large.
+/// assert_eq!(subspaces.volume_fractions()[Pattern::Zigzag.index()], 2.0 / 3.0);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -52,8 +66,8 @@ impl Subspaces {
             .collect()
     }
 
-    /// Nodes of a pattern whose neighbours show it, too; all of its nodes if there are none. What is
-    /// planned with these stays away from the boundary.
+    /// Nodes of a pattern whose neighbours show it as well; all of its nodes if there are none. Plans made
+    /// with these stay away from the boundary.
     pub fn inner_nodes(&self, pattern: Pattern) -> Vec<usize> {
         let nodes = self.nodes(pattern);
         let inner: Vec<usize> = nodes
@@ -198,7 +212,7 @@ mod tests {
             assert_eq!(line.pattern_at(&point), Pattern::SteadyDescent);
             last_region += u32::from(point[0] > 3.0);
         }
-        // A quarter of the volume: binomial, 5 standard deviations of √(n p q) = 27.
+        // It is a quarter of the volume: 5 standard deviations of a binomial are 5 · √(n p q) = 5 · 27.
         assert!(
             (f64::from(last_region) - 1000.0).abs() < 5.0 * 27.4,
             "{last_region}"

@@ -19,12 +19,12 @@ pub struct Sample {
     pub eccentricity: f64,
     /// The direct classifier's verdict.
     pub regime: Regime,
-    /// False if it was taken over from agreeing neighbours.
+    /// Whether it was simulated, not taken over from agreeing neighbours.
     pub simulated: bool,
 }
 
 impl Sample {
-    /// What a fall shows.
+    /// The sample of a fall.
     pub fn of(fall: &Trajectory, classifier: &Classifier) -> Self {
         let Spread {
             distance,
@@ -44,7 +44,30 @@ impl Sample {
     }
 }
 
-/// A grid and what is known at its nodes. Interrupted, saved and loaded, it goes on where it was.
+/// A grid and what is known at its nodes. A sweep that was interrupted, saved and loaded goes on where it
+/// was.
+///
+/// ```
+/// use rapier3d_immersed::ThesisLaw;
+/// use rapier3d_immersed::motion::Classifier;
+/// use rapier3d_immersed::training::{Experiment, Grid, Sweep};
+/// use std::ops::ControlFlow;
+///
+/// // Eight falls, one for each corner of the thesis's range of coefficients.
+/// let mut experiment = Experiment::thesis_card(ThesisLaw::new([1.0; 3]))?;
+/// experiment.seconds = 1.0;
+/// let mut sweep = Sweep::new(Grid::of_coefficients(2, 3.0)?);
+/// sweep.run_coefficients(&experiment, &Classifier::default(), |done, of| {
+///     println!("{done}/{of}");
+///     ControlFlow::Continue(())
+/// })?;
+/// assert_eq!((sweep.remaining(), sweep.simulated()), (0, 8));
+/// // Twice as fine, only nodes between neighbours that disagree are missing.
+/// let finer = sweep.refined(|sample| sample.pattern())?;
+/// assert_eq!(finer.grid().len(), 27);
+/// assert!(finer.remaining() <= 27 - 8);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -87,7 +110,7 @@ impl Sweep {
     }
 
     /// Computes what is missing; `experiment` gives the sample at a point of the grid. After every few
-    /// experiments `progress` hears how many are done of how many, and may stop the sweep; what is
+    /// experiments `progress` is told how many are done of how many, and may stop the sweep; what is
     /// done is kept. The result depends neither on the number of threads nor on interruptions.
     ///
     /// # Errors
@@ -267,7 +290,7 @@ mod tests {
         assert_eq!(sweep.patterns(), whole.patterns());
         for pair in counts.windows(2) {
             let growth = pair[1] as f64 / pair[0] as f64;
-            // The boundary is a curve that the coarsest grid resolves with some 20 nodes.
+            // The coarsest grid resolves the boundary, a curve, with some 20 nodes.
             assert!((1.7..2.3).contains(&growth), "{counts:?}");
         }
         assert!(sweep.simulated() < 129 * 129 / 8);
@@ -291,7 +314,7 @@ mod tests {
         let fall = experiment.run().unwrap();
         let (swept, direct) = (sweep.samples()[5].unwrap(), Sample::of(&fall, &classifier));
         assert_eq!(swept.regime, direct.regime);
-        // Factors are multiplied in another order: rounding.
+        // Factors are multiplied in another order, which changes the rounding.
         assert!((swept.distance / direct.distance - 1.0).abs() < 1e-9);
         let mut flat = Sweep::new(square(2));
         assert!(

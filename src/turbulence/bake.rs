@@ -1,7 +1,7 @@
 //! Baking: a stream past a body, its turbulence, and the particle that feels it (thesis Algorithm 1).
 //!
-//! Everything here is in units of the body's length L and falling speed U₀, so that the Reynolds number is the only
-//! property of the fluid.
+//! Everything here is in units of the body's length L and falling speed U₀, so that the Reynolds number is
+//! the only property of the fluid.
 
 use super::grid::{Advection, Boundary, MacGrid, MacGridParams, Viscosity};
 use super::{KEpsilon, KEpsilonGrid, TurbulenceField, TurbulenceState, TurbulenceTable};
@@ -10,23 +10,44 @@ use crate::flow::{Flow, Uniform};
 use rapier3d::math::Real;
 use std::sync::Arc;
 
-/// What shears the mean flow. The thesis does not say what did in its runs; a uniform stream in an empty box has no
-/// shear, so that its turbulence only decays.
+/// What shears the mean flow. The thesis does not say what did in its runs; a uniform stream in an empty
+/// box has no shear, so that its turbulence only decays.
 #[derive(Clone, Default)]
 pub enum ShearSource {
-    /// A round plate across the stream, L in diameter and one cell thick: a body falling broadside. The
-    /// default.
+    /// A round plate across the stream, L in diameter and one cell thick: a body falling broadside. This
+    /// is the default.
     #[default]
     Plate,
     /// An ellipsoid with these semi-axes, in L, the first along the stream.
     Ellipsoid([f64; 3]),
     /// A gusty or sheared flow that enters (speeds in U₀, lengths in L); the box stays empty.
     Inflow(Arc<dyn Flow>),
-    /// Nothing: homogeneous decay.
+    /// Nothing does: the turbulence decays homogeneously.
     Nothing,
 }
 
-/// What [`TurbulenceTable::bake`] needs to know.
+/// The parameters of [`TurbulenceTable::bake`].
+///
+/// ```
+/// use rapier3d_immersed::turbulence::{ShearSource, TurbulenceParams, TurbulenceTable};
+///
+/// // Nothing shears the stream: the turbulence that the particle feels decays as the k–ε model says.
+/// let params = TurbulenceParams {
+///     cells: [24, 8, 4],
+///     shear: ShearSource::Nothing,
+///     diffusion: false,
+///     release: [0.0; 3],
+///     spin_up: 0.0,
+///     duration: 1.0,
+///     ..TurbulenceParams::default()
+/// };
+/// let (table, report) = TurbulenceTable::bake(&params)?;
+/// assert_eq!(report.unconverged_steps, 0);
+/// let [first, last] = [0.0, 1.0].map(|time| table.history_at(time));
+/// let (k, _) = params.model.advance(1.5, first.dissipation.into(), 0.0, 1.0);
+/// assert!((f64::from(last.kinetic_energy) / k - 1.0).abs() < 0.01);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct TurbulenceParams {
     /// Re = U₀L/ν. Default 3.8e3 (thesis Fig. 4.2).
@@ -44,8 +65,8 @@ pub struct TurbulenceParams {
     pub model: KEpsilon,
     /// Whether k and ε diffuse, thesis (4.15). Default true.
     pub diffusion: bool,
-    /// Whether the mean flow is mixed by ν_T. Default true. Without it nothing ends the growth of k in fluid that is
-    /// trapped in the wake: its shear feeds turbulence, but the turbulence does not wear down the shear.
+    /// Whether the mean flow is mixed by ν_T. Default true. Without it nothing ends the growth of k in fluid
+    /// that is trapped in the wake: its shear feeds turbulence, but the turbulence does not smooth the shear.
     pub feedback: bool,
     /// How the mean flow is advected. Default MacCormack.
     pub advection: Advection,
@@ -94,9 +115,9 @@ pub struct BakeSample {
     pub time: f64,
     /// Position in the box.
     pub position: [f64; 3],
-    /// k.
+    /// Turbulent kinetic energy k.
     pub kinetic_energy: f64,
-    /// ε.
+    /// Dissipation rate ε.
     pub dissipation: f64,
     /// Rate of strain √(2 S:S) of the mean flow.
     pub strain: f64,
@@ -118,9 +139,9 @@ pub struct BakeReport {
 }
 
 impl TurbulenceParams {
-    /// What the thesis describes: semi-Lagrangian mean flow, k and ε reduced to (4.18)–(4.19) without diffusion, no
-    /// effect of the turbulence on the mean flow. In the recirculation behind the body k then grows
-    /// without bound; the followed particle passes outside of it.
+    /// What the thesis describes: semi-Lagrangian mean flow, k and ε reduced to (4.18)–(4.19) without
+    /// diffusion, no effect of the turbulence on the mean flow. In the recirculation behind the body k then
+    /// grows without bound; the followed particle passes outside of it.
     pub fn thesis() -> Self {
         Self {
             diffusion: false,
@@ -198,7 +219,7 @@ impl TurbulenceParams {
         grid.set_velocity(|_| [1.0, 0.0, 0.0])?;
         let h = self.cell_size;
         let axes = match self.shear {
-            // Half a cell and a bit: one layer of cells, wherever their centers are.
+            // A little more than half a cell takes one layer of cells, wherever their centers are.
             ShearSource::Plate => Some([0.501 * h, 0.5, 0.5]),
             ShearSource::Ellipsoid(axes) => Some(axes),
             _ => None,
@@ -298,7 +319,7 @@ impl TurbulenceTable {
         } else {
             let body = params.body();
             let h = params.cell_size;
-            // With the origin at the body.
+            // The field's origin is the body.
             let origin = core::array::from_fn(|i| 0.5 * h - body[i]);
             Some(TurbulenceField::new(
                 params.cells,

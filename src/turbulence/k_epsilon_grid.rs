@@ -10,6 +10,22 @@ use rayon::prelude::*;
 /// A step carries both along the flow (semi-Lagrangian: never outside the range of what was there), then
 /// produces and dissipates with [`KEpsilon::advance`], then, in the full form, diffuses implicitly along one
 /// axis after another. Each of the three keeps both positive for any `dt`.
+///
+/// ```
+/// use rapier3d_immersed::turbulence::grid::{MacGrid, MacGridParams};
+/// use rapier3d_immersed::turbulence::{KEpsilon, KEpsilonGrid};
+///
+/// let mut grid = MacGrid::new(&MacGridParams { cells: [8, 8, 1], ..MacGridParams::default() })?;
+/// let mut turbulence = KEpsilonGrid::new(&grid, KEpsilon::default(), 1.0, 1.0, None)?;
+/// for _ in 0..4 {
+///     grid.step(0.5)?;
+///     turbulence.step(&grid, 0.5)?;
+/// }
+/// // In fluid at rest the turbulence decays for 2 s as the model does alone.
+/// let (k, _) = turbulence.at(&grid, [0.1, 0.1, 0.0]);
+/// assert!((k - KEpsilon::default().advance(1.0, 1.0, 0.0, 2.0).0).abs() < 1e-9);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 pub struct KEpsilonGrid {
     model: KEpsilon,
     k: Array3,
@@ -141,8 +157,8 @@ impl KEpsilonGrid {
             .collect()
     }
 
-    /// Ghosts; and solid cells get the mean of their fluid neighbors, so that nothing of what they
-    /// held leaks into the flow by interpolation.
+    /// Sets the ghosts, and gives solid cells the mean of their fluid neighbors, so that nothing of what
+    /// they held leaks into the flow by interpolation.
     fn complete(&mut self, grid: &MacGrid) {
         let solid = grid.solid();
         for (array, inflow) in [&mut self.k, &mut self.epsilon]
@@ -175,8 +191,8 @@ impl KEpsilonGrid {
         }
     }
 
-    /// Implicit diffusion with ν + ν_T/σ, axis by axis; a tridiagonal M-matrix each, which keeps
-    /// positive what is positive. Nothing diffuses through solid faces.
+    /// Diffuses implicitly with ν + ν_T/σ, axis by axis: the matrix of each is a tridiagonal M-matrix, which
+    /// keeps positive what is positive. Nothing diffuses through solid faces.
     fn diffuse(&mut self, grid: &MacGrid, viscosity: f64, dt: f64) {
         let mut eddy = self.k.clone();
         for ((eddy, k), epsilon) in eddy
@@ -224,7 +240,7 @@ impl KEpsilonGrid {
                     let high = line.iter().copied().fold(0.0, f64::max);
                     solve_line(&conductance, &mut line);
                     for (i, value) in line.into_iter().enumerate() {
-                        // The maximum principle, against rounding.
+                        // Rounding could break the maximum principle.
                         array.set(at(i), value.clamp(low, high));
                     }
                 }
@@ -245,7 +261,8 @@ fn solve_line(conductance: &[f64], f: &mut [f64]) {
     let mut diagonal: Vec<f64> = (0..n)
         .map(|i| 1.0 + conductance[i] + conductance[i + 1])
         .collect();
-    // The periodic corners are a matrix of rank one, with γ = −diagonal[0], plus changes of two diagonal entries.
+    // The periodic corners are a matrix of rank one, with γ = −diagonal[0], plus changes of two diagonal
+    // entries.
     let gamma = -diagonal[0];
     let mut correction = vec![0.0; n];
     if wrap > 0.0 {
@@ -282,7 +299,7 @@ mod tests {
     use super::*;
     use crate::turbulence::grid::MacGridParams;
 
-    /// Both kinds of lines against the equations they solve.
+    /// Both kinds of lines solve their equations.
     #[test]
     fn lines_are_solved_to_rounding() {
         for wrap in [0.0, 0.7] {

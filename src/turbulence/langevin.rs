@@ -11,8 +11,16 @@ use rapier3d::math::{Real, Vector};
 /// C₀ of the Langevin equation, 6.5 (1 + 140 Re_λ^(−4/3))^(−3/4), of the *square* of the Taylor-scale
 /// Reynolds number (see [`TurbulenceState::taylor_reynolds_squared`]).
 ///
-/// Pope (2011), Phys. Fluids 23, 011301; the thesis (4.10)–(4.11) inserts the body's Reynolds
-/// number, which overstates C₀. Tends to 6.5 for strong turbulence, to 0 for weak.
+/// Source: Pope (2011), Phys. Fluids 23, 011301; the thesis (4.10)–(4.11) inserts the body's Reynolds
+/// number, which overstates C₀. It tends to 6.5 for strong turbulence and to 0 for weak.
+///
+/// ```
+/// use rapier3d_immersed::turbulence::kolmogorov_constant;
+///
+/// let reynolds: f32 = 100.0;
+/// // 6.5 (1 + 140/464)^(−3/4) at Re_λ = 100.
+/// assert!((kolmogorov_constant(reynolds * reynolds) - 5.33).abs() < 0.01);
+/// ```
 #[inline]
 pub fn kolmogorov_constant(taylor_reynolds_squared: Real) -> Real {
     let root = cube_root(taylor_reynolds_squared);
@@ -33,7 +41,7 @@ fn cube_root(x: Real) -> Real {
     (2.0 * guess + x / (guess * guess)) / 3.0
 }
 
-/// Eight terms of 1 − e^(−x), accurate to 1e-8 from 0 to .35.
+/// 1 − e^(−x) by eight terms of its series, accurate to 1e-8 from 0 to .35.
 #[inline(always)]
 fn lost<T: Scalar>(x: T) -> T {
     let one = x.constant(1.0);
@@ -44,9 +52,9 @@ fn lost<T: Scalar>(x: T) -> T {
     x * sum
 }
 
-/// e^(−x) and 1 − e^(−2x) for x ≥ 0. The second without cancellation, as m(2 − m) of m = 1 − e^(−x), so that
-/// even a step of a millionth of the memory adds the right spread in f32. Basic operations only: cheap, and the
-/// same bits on every platform and in every lane.
+/// e^(−x) and 1 − e^(−2x) for x ≥ 0. The second is m(2 − m) of m = 1 − e^(−x), without cancellation, so that
+/// even a step of a millionth of the memory adds the right spread in f32. It takes basic operations only,
+/// which are cheap and give the same bits on every platform and in every lane.
 #[inline(always)]
 fn memory<T: Scalar>(x: T) -> (T, T) {
     let one = x.constant(1.0);
@@ -57,7 +65,7 @@ fn memory<T: Scalar>(x: T) -> (T, T) {
     if (-x).all_ge(-0.35) {
         return (kept, fresh2);
     }
-    // The 64th part, six times squared; beyond 22 nothing is kept.
+    // e^(−x/64) is squared six times; beyond x = 22 nothing is kept.
     let mut long = one - lost(x.min(x.constant(22.0)) * x.constant(1.0 / 64.0));
     for _ in 0..6 {
         long *= long;
@@ -75,6 +83,26 @@ fn memory<T: Scalar>(x: T) -> (T, T) {
 /// the decay of k itself. So ⟨u²⟩ = ⅔k per component *exactly*, for steady, decaying or growing
 /// k, for every time step; and one step of length dt is many small ones.
 ///
+/// [`Immersion`](crate::Immersion) keeps one for each of its bodies. With one of your own, anything else
+/// can drift in the same turbulence:
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use rapier3d_immersed::turbulence::{NoiseStream, SeenFluctuation, TurbulenceState};
+/// use rapier3d_immersed::turbulence::kolmogorov_constant;
+///
+/// let state = TurbulenceState { kinetic_energy: 0.15, dissipation: 0.3 }; // 0.32 m/s, 0.5 s
+/// let c0 = kolmogorov_constant(state.taylor_reynolds_squared(1.5e-5));
+/// let noise = NoiseStream::new(1, 0);
+/// let mut seen = SeenFluctuation::stationary(noise.vector(0, 0));
+/// let (mut square, steps) = (0.0, 20_000);
+/// for step in 1..=steps {
+///     square += seen.advance(&state, c0, 0.0, 0.1, noise.vector(step, 0)).length_squared();
+/// }
+/// // ½⟨u²⟩ = k, within the error of a mean over some thousand independent values.
+/// assert!((0.5 * square / steps as f32 / 0.15 - 1.0).abs() < 0.05);
+/// ```
+///
 /// In space the process knows only the local k: where k varies strongly, fluid tracers (not heavy bodies)
 /// would need a drift along ∇k to stay evenly mixed, which is left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -83,7 +111,7 @@ fn memory<T: Scalar>(x: T) -> (T, T) {
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct SeenFluctuation {
-    /// Fluctuation over standard deviation, world axes. Zero: starts in quiet fluid.
+    /// Fluctuation over standard deviation, world axes. A body for which it is zero starts in quiet fluid.
     pub normalized: Vector,
 }
 
@@ -98,8 +126,8 @@ impl SeenFluctuation {
     /// `c0` is [`kolmogorov_constant`] of the state, `noise` three standard Gaussian numbers of this
     /// body and step. `relative_speed` is the body's mean speed through the fluid (m/s): a body that
     /// falls through the eddies sees them pass faster than a tracer does, which shortens the memory
-    /// by √(1 + u_r²/(⅔k)) (Csanady 1963, with Lagrangian and Eulerian time scales taken as equal). 0 for
-    /// a tracer.
+    /// by √(1 + u_r²/(⅔k)) (Csanady 1963, with Lagrangian and Eulerian time scales taken as equal). It is
+    /// 0 for a tracer.
     #[inline]
     pub fn advance(
         &mut self,
@@ -138,15 +166,15 @@ pub(crate) fn pass<T: Scalar>(
     [x * deviation, y * deviation, z * deviation]
 }
 
-/// What a step needs to know of the turbulence: the same for all bodies where that is homogeneous. All
-/// zero where there is none.
+/// What a step needs to know of the turbulence: the same for all bodies if it is homogeneous, and zero
+/// without turbulence.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Eddies<T> {
     /// dt over the memory of a tracer.
     pub decay: T,
     /// Standard deviation of a component, m/s.
     pub deviation: T,
-    /// Its squared inverse, s²/m².
+    /// Inverse square of the deviation, s²/m².
     pub per_variance: T,
 }
 
@@ -194,8 +222,8 @@ pub fn relative_velocity_after(
 
 /// The thesis's mode: random change of the body's spin in `dt` seconds, √(C₀ε dt)/L, rad/s.
 ///
-/// Thesis (4.13) without the length L of the body (m) would be a velocity. Nothing here takes the spin away
-/// again: the vortical loads have to (thesis §4.3.2).
+/// Thesis (4.13) without the length L of the body (m) would be a velocity. This only adds spin; the vortical
+/// loads take it away again (thesis §4.3.2).
 #[inline]
 pub fn spin_increment(
     state: &TurbulenceState,
@@ -259,7 +287,7 @@ mod tests {
             dissipation: 2.0,
         };
         let one = |dt: f32, n: u32| {
-            // Memory from a start without noise, spread from noise of one in every step.
+            // The memory shows in a start without noise, the spread with a noise of one in every step.
             let mut seen = SeenFluctuation::stationary(Vector::X);
             let mut thesis = Vector::X;
             let (mut spread, mut thesis_spread) = (0.0, 0.0);
@@ -281,7 +309,7 @@ mod tests {
             [seen.normalized.x, thesis.x, spread, thesis_spread]
         };
         for (a, b) in one(0.1, 1).into_iter().zip(one(0.001, 100)) {
-            // A hundred f32 roundings of 6e-8.
+            // The tolerance is a hundred f32 roundings of 6e-8.
             assert!((a - b).abs() < 1.0e-5, "{a} {b}");
         }
     }

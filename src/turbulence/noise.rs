@@ -1,12 +1,22 @@
-//! One random stream per body.
+//! Random numbers: every body has a stream of its own.
 
 use crate::math::Scalar;
 use rapier3d::math::{Real, Vector};
 
 /// The Gaussian noise of one body: a pure function of (seed, body, step, draw).
 ///
-/// Nothing is stored but a key, so that the order in which bodies are stepped, the number of threads, and saving
-/// and restoring cannot change what a body draws.
+/// Nothing is stored but a key, so that the order in which bodies are stepped, the number of threads, and
+/// saving and restoring cannot change what a body draws.
+///
+/// ```
+/// use rapier3d_immersed::turbulence::NoiseStream;
+///
+/// let noise = NoiseStream::new(7, 42);
+/// assert_eq!(noise.vector(5, 0), NoiseStream::new(7, 42).vector(5, 0));
+/// assert_ne!(noise.vector(5, 0), noise.vector(6, 0));
+/// let mean: f32 = (0..10_000).map(|step| noise.vector(step, 0).x).sum::<f32>() / 10_000.0;
+/// assert!(mean.abs() < 0.04); // four standard errors
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -44,13 +54,13 @@ impl NoiseStream {
         Vector::from_array(gaussian(self.uniform(step, draw)))
     }
 
-    /// Four independent numbers for [`gaussian`].
+    /// Four independent uniform numbers in the ranges that [`gaussian`] takes.
     #[inline(always)]
     pub(crate) fn uniform(&self, step: u64, draw: u32) -> [Real; 4] {
         let counter = step.wrapping_mul(GOLDEN).wrapping_add(u64::from(draw));
         let low = mix(self.key ^ counter);
         let high = mix(low.wrapping_add(self.key));
-        /// Of 32 bits.
+        /// The spacing of 32-bit numbers that fill a range of one.
         const UNIT: Real = 1.0 / 4_294_967_296.0;
         let positive = |bits: u64| ((bits >> 32) as u32 as Real + 0.5) * UNIT;
         let turn = |bits: u64| bits as u32 as i32 as Real * UNIT;
@@ -58,12 +68,13 @@ impl NoiseStream {
     }
 }
 
-/// Three independent standard Gaussian numbers of numbers that are uniform in (0, 1], [−½, ½], (0, 1]
-/// and [−½, ½] (Box & Muller 1958): √(−2 ln a) at the angle of `b` turns. Basic operations only: the same
-/// bits on every platform and in every lane. The largest that 32 bits can make is 6.8.
+/// Three independent standard Gaussian numbers from numbers that are uniform in (0, 1], [−½, ½], (0, 1]
+/// and [−½, ½] (Box & Muller 1958): √(−2 ln a) at the angle of `b` turns. It takes basic operations only, so
+/// that the bits are the same on every platform and in every lane. The largest that 32 bits can make is 6.8.
 #[inline(always)]
 pub(crate) fn gaussian<T: Scalar>([a, b, c, d]: [T; 4]) -> [T; 3] {
-    // ln a ≤ 0 for a ≤ 1. Of half the angle, so that no sign has to be chosen.
+    // The root is real, as ln a ≤ 0 for a ≤ 1. Sines are those of half the angle, so that no sign has to be
+    // chosen.
     let first = (a.constant(-2.0) * a.ln()).sqrt();
     let second = (c.constant(-2.0) * c.ln()).sqrt();
     let (half, one, two) = (a.constant(0.5), a.constant(1.0), a.constant(2.0));
@@ -77,7 +88,7 @@ pub(crate) fn gaussian<T: Scalar>([a, b, c, d]: [T; 4]) -> [T; 3] {
     ]
 }
 
-/// sin 2πx for |x| ≤ ¼, to 1e-7: six terms of the series.
+/// sin 2πx for |x| ≤ ¼, to 1e-7, by six terms of the series.
 #[inline(always)]
 fn sine_of_turns<T: Scalar>(x: T) -> T {
     let angle = x * x.constant(std::f64::consts::TAU);
@@ -120,7 +131,7 @@ mod tests {
             tail += u32::from(x.abs() > 3.0);
             last = x;
         }
-        // Standard deviations of x, x², x³, x⁴ and of the products, over √n; 4.5 of them.
+        // The tolerance is 4.5 standard deviations of x, x², x³, x⁴ and of the products, over √n.
         let deviations = [
             1.0,
             2.0f64.sqrt(),
@@ -147,7 +158,7 @@ mod tests {
             let exact = (std::f64::consts::TAU * f64::from(x)).sin();
             assert!((f64::from(sine_of_turns(x)) - exact).abs() < 2.0e-7, "{x}");
         }
-        // All eighths of the turn, by their signs and sizes.
+        // Every eighth of the turn is tried, with the signs and sizes that it should have.
         for i in -4..=4 {
             let turns = i as f32 * 0.125;
             let [x, y, _] = gaussian([0.5, turns, 1.0, 0.0]);
@@ -161,7 +172,7 @@ mod tests {
         assert!((x - 6.764).abs() < 1.0e-3 && z == 0.0, "{x} {z}");
     }
 
-    /// Pinned bits: a body's noise is part of what a saved simulation means.
+    /// The bits are pinned, because a body's noise is part of what a saved simulation means.
     #[test]
     fn noise_is_a_pure_function_of_its_arguments() {
         let stream = NoiseStream::new(42, 3);

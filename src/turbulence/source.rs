@@ -7,14 +7,30 @@ use std::sync::Arc;
 
 /// How strong the turbulence around a body is, at a place and a time: a layer over any mean
 /// [`Flow`](crate::flow::Flow).
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use rapier3d_immersed::turbulence::{Turbulence, TurbulenceTable};
+/// use std::sync::Arc;
+///
+/// // The wake of a body 3 cm long that falls at 1 m/s: the table that ships serves every size and speed.
+/// let wake = Turbulence::History {
+///     table: Arc::new(TurbulenceTable::default_history()),
+///     velocity_scale: 1.0,
+///     length_scale: 0.03,
+/// };
+/// let at_release = wake.at(Vector::ZERO, 0.0, 0.0);
+/// assert_eq!(at_release.kinetic_energy, 1.5); // 3/2 U₀², thesis (4.20)
+/// assert!(wake.at(Vector::ZERO, 1.0, 1.0).kinetic_energy < 0.1);
+/// ```
 #[derive(Clone, Debug)]
 pub enum Turbulence {
     /// The same everywhere and always.
     Homogeneous(TurbulenceState),
-    /// Decays without shear from `initial` since the body's release, as the k–ε model does exactly:
+    /// It decays without shear from `initial` since the body's release, as the k–ε model does exactly:
     /// k = k₀ [1 + (C₂−1) ε₀t/k₀]^(−1/(C₂−1)).
     Decaying {
-        /// At the release.
+        /// The turbulence at the release.
         initial: TurbulenceState,
     },
     /// The equilibrium surface layer under a log-law wind: k = u*²/√C_μ, ε = u*³/(κh).
@@ -28,7 +44,7 @@ pub enum Turbulence {
         /// L, m: the body's length.
         length_scale: Real,
     },
-    /// A baked field, fixed in the world. Tables without a field give their history.
+    /// A baked field, fixed in the world. A table without a field gives its history.
     Field {
         /// The field, in units of the two scales.
         table: Arc<TurbulenceTable>,
@@ -56,6 +72,17 @@ pub enum LangevinMode {
 }
 
 /// A turbulence over a mean flow, how it acts, and its seed.
+///
+/// ```
+/// use rapier3d_immersed::turbulence::{LangevinMode, Turbulence, TurbulenceState, TurbulentLayer};
+/// use rapier3d_immersed::{Fluid, Immersion};
+///
+/// let state = TurbulenceState::from_intensity(2.0, 0.1, 0.05)?;
+/// let layer = TurbulentLayer { seed: 3, ..Turbulence::Homogeneous(state).into() };
+/// assert_eq!(layer.mode, LangevinMode::FluidSeen);
+/// Immersion::new(Fluid::AIR).set_turbulence(layer);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct TurbulentLayer {
     /// How strong it is, where and when.
@@ -63,7 +90,7 @@ pub struct TurbulentLayer {
     /// How it acts on bodies.
     pub mode: LangevinMode,
     /// Seed of the noise. Each body has a stream of its own, a pure function of seed, handle and
-    /// step: order and threads cannot change it.
+    /// step, which neither order nor threads can change.
     pub seed: u64,
 }
 
@@ -148,7 +175,7 @@ mod tests {
         };
         let decaying = Turbulence::Decaying { initial };
         assert_eq!(decaying.at(Vector::ONE, 5.0, 0.0), initial);
-        // Decay of k0 = ε0 = 1 after 2 s: .32156.
+        // k0 = ε0 = 1 decays to .32156 within 2 s.
         let later = decaying.at(Vector::ONE, 5.0, 2.0);
         assert!((later.kinetic_energy - 0.32156).abs() < 1.0e-5);
         let wind = LogLaw::new(Vector::X, Vector::Y, 4.0, 10.0, 0.3).unwrap();

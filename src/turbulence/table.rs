@@ -10,6 +10,19 @@ use std::sync::LazyLock;
 ///
 /// So one table serves every body; [`Turbulence`](super::Turbulence) holds the scales.
 /// Look-ups are linear between entries and clamped at the ends.
+///
+/// ```
+/// use rapier3d_immersed::turbulence::{TurbulenceState, TurbulenceTable};
+///
+/// // Two entries, 0.5 L/U₀ apart.
+/// let state = |k| TurbulenceState { kinetic_energy: k, dissipation: k };
+/// let table = TurbulenceTable::new(4000.0, 0.5, vec![state(1.5), state(0.5)], None)?;
+/// assert_eq!(table.history_at(0.25).kinetic_energy, 1.0);
+/// assert_eq!(table.history_at(9.0), state(0.5));
+/// let bytes = table.to_bytes(); // std::fs::write(path, &bytes)
+/// assert_eq!(TurbulenceTable::from_bytes(&bytes)?, table);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TurbulenceTable {
     reynolds: f64,
@@ -25,7 +38,7 @@ pub struct TurbulenceField {
     origin: [f64; 3],
     spacing: [f64; 3],
     time_step: f64,
-    /// Frame after frame; inside a frame as in [`GridFlow`](crate::flow::GridFlow::new).
+    /// States frame after frame, inside a frame in the order of [`GridFlow`](crate::flow::GridFlow::new).
     states: Vec<TurbulenceState>,
 }
 
@@ -137,7 +150,7 @@ impl TurbulenceTable {
         mix(self.history[below], self.history[above], weight)
     }
 
-    /// The file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
+    /// The bytes of a file: magic (8 bytes), version (`u32`), length and FNV-1a checksum of the rest (`u64`),
     /// then the unit system, numbers of history entries, of field nodes along each axis and of frames
     /// (`u64`; zeros without field), Reynolds number, time step, the field's origin, spacing, time
     /// step (`f64`), then k, ε of history and field (`f32`); all little-endian.
@@ -270,7 +283,8 @@ impl TurbulenceField {
         self.states.len() / self.dims.iter().product::<usize>()
     }
 
-    /// The states of one instant, in the order of [`GridFlow`](crate::flow::GridFlow::new); clamped to the last.
+    /// The states of one instant, in the order of [`GridFlow`](crate::flow::GridFlow::new). Beyond the last
+    /// instant it is the last.
     pub fn frame(&self, frame: usize) -> &[TurbulenceState] {
         let nodes: usize = self.dims.iter().product();
         let first = frame.min(self.frames() - 1) * nodes;

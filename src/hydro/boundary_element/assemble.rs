@@ -17,7 +17,7 @@ const ROWS_PER_BATCH: usize = 128;
 pub(super) struct Elements<'a> {
     pub triangles: &'a [[u32; 3]],
     pub panels: &'a [Panel],
-    /// The unknown of each vertex: none on the free edge of a sheet, where the jump of the potential
+    /// The unknown of each vertex; `None` on the free edge of a sheet, where the jump of the potential
     /// vanishes.
     pub unknowns: &'a [Option<u32>],
     pub unknown_count: usize,
@@ -83,9 +83,9 @@ impl Points {
 /// Sums of 1/r between the three points of one panel and those of a run of others.
 #[derive(Default)]
 struct FarSums {
-    /// By point of the one panel.
+    /// The sums by points of the one panel.
     rows: [Vec<f64>; 3],
-    /// By point of the others.
+    /// The sums by points of the others.
     columns: [Vec<f64>; 3],
 }
 
@@ -130,7 +130,7 @@ pub(super) fn assemble(
     let curls: Vec<_> = panels.iter().map(Panel::curls).collect();
     let mut matrix = vec![0.0; n * n];
     let mut vortices = vec![Vortex::ZERO; if vortex { panels.len() } else { 0 }];
-    // By unknown: the panels around it, ascending, and which of their corners it is.
+    // For each unknown, these are the panels around it, ascending, and which of their corners it is.
     let mut around = vec![Vec::new(); n];
     for (p, triangle) in elements.triangles.iter().enumerate() {
         for (corner, v) in triangle.iter().enumerate() {
@@ -181,7 +181,7 @@ pub(super) fn assemble(
         let left = (panels.len() - last) as f64 / panels.len() as f64;
         progress(1.0 - left * left);
     }
-    // Only pairs with P ≤ Q were added, P = Q by half: the transpose is the other half.
+    // Only pairs with P ≤ Q were added, and half of P = Q, so that the transpose is the other half.
     for i in 0..n {
         for j in 0..i {
             let sum = (matrix[i * n + j] + matrix[j * n + i]) / (4.0 * PI);

@@ -1,4 +1,4 @@
-//! Solved shapes, remembered: a thousand equal leaves cost one solve.
+//! A cache of solved shapes: a thousand equal leaves cost one solve.
 
 use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn};
 use crate::error::Error;
@@ -9,7 +9,7 @@ use rapier3d::na::Vector3;
 use rapier3d::parry::shape::Shape;
 use std::collections::BTreeMap;
 
-/// Cells that a shape is meshed with to recognise it.
+/// Cells of the mesh by which a shape is recognised.
 const KEY_CELLS: usize = 3;
 
 /// Added mass by shape and by the parameters of its solve.
@@ -17,6 +17,20 @@ const KEY_CELLS: usize = 3;
 /// A shape is recognised by the digits of its mesh in its own frame, hashed to 128 bits: equal shapes
 /// have equal keys in every program and on every machine, a shape that is turned or scaled has
 /// another one. Two different shapes share a key with a probability of 10⁻³⁸.
+///
+/// ```
+/// use rapier3d_immersed::boundary_element::{AddedMassCache, BoundaryElementParams};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// let params = BoundaryElementParams { tolerance: 0.1, ..Default::default() };
+/// let mut cache = AddedMassCache::default();
+/// for i in 0..100 {
+///     let leaf = Cuboid::new(Vector::new(0.03, 0.0002, if i % 2 == 0 { 0.02 } else { 0.015 }));
+///     cache.of_shape(&leaf, Vector::ZERO, &params, &|_| ())?;
+/// }
+/// assert_eq!(cache.len(), 2); // two kinds of leaves, two solves
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AddedMassCache {
     solved: BTreeMap<u128, SolvedShape>,
@@ -76,7 +90,7 @@ impl AddedMassCache {
     }
 }
 
-/// FNV-1a, 128 bits, of everything that the result depends on.
+/// A hash (FNV-1a, 128 bits) of everything that the result depends on.
 fn key(surface: &Surface, params: &BoundaryElementParams) -> u128 {
     let vertices = surface.vertices().iter().flat_map(|v| v.iter().copied());
     let scalars = [params.tolerance, params.far].into_iter().chain(vertices);
@@ -87,7 +101,7 @@ fn key(surface: &Surface, params: &BoundaryElementParams) -> u128 {
         params.close_levels.into(),
         surface.vertices().len() as u64,
     ];
-    // Adding zero makes −0 and 0 one.
+    // Adding zero turns −0 into 0.
     counts
         .into_iter()
         .chain(scalars.map(|x| (x + 0.0).to_bits()))
@@ -151,7 +165,7 @@ mod tests {
         };
         let mut cache = AddedMassCache::default();
         for i in 0..30 {
-            // Two kinds of leaves, thirty bodies.
+            // There are two kinds of leaves among thirty bodies.
             let shape = SharedShape::cuboid(0.03, 0.02, if i % 3 == 0 { 0.001 } else { 0.002 });
             let point = Vector::X * (i as f32 * 0.01);
             let count = |progress: super::super::BoundaryElementProgress| {

@@ -1,7 +1,21 @@
 //! Added mass of any shape by boundary elements.
 //!
-//! [`AddedMass::of_shape`] takes a collider's shape and a tolerance; [`AddedMass::solve`] a closed
-//! mesh; [`AddedMass::solve_sheet`] an open one with a thickness. All motions, all couplings.
+//! [`HydroProperties::from_shape_with`](super::HydroProperties::from_shape_with) and
+//! [`Accuracy::Mesh`](super::Accuracy) are all that most users need. Below that, [`AddedMass::of_shape`]
+//! takes a collider's shape and a tolerance, [`AddedMass::solve`] a closed mesh, [`AddedMass::solve_sheet`]
+//! an open one with a thickness; each gives the whole tensor, couplings included. An [`AddedMassCache`]
+//! solves equal shapes once, and a [`BoundaryElementSolution`] also holds the potentials on the mesh.
+//!
+//! ```
+//! use rapier3d_immersed::AddedMass;
+//! use rapier3d_immersed::rapier3d::prelude::*;
+//!
+//! let (cube, report) = AddedMass::of_shape(&Cuboid::new(Vector::splat(0.5)), Vector::ZERO, 0.02)?;
+//! assert!(report.converged);
+//! // 0.639 of the displaced volume.
+//! assert!((cube.linear[(0, 0)] - 0.639).abs() < 0.01);
+//! # Ok::<(), rapier3d_immersed::Error>(())
+//! ```
 //!
 //! The method is a Galerkin discretisation of the hypersingular operator with continuous, piecewise
 //! linear potentials. Its integrals reduce to those of 1/|x − y| over pairs of triangles, done
@@ -21,9 +35,9 @@
 //! [`HydroProperties::from_shape_with`](super::HydroProperties::from_shape_with) solves.
 //!
 //! # Cost
-//! Half as many unknowns as panels. Processor time on one core (divide by the cores) for a ball of
+//! There are half as many unknowns as panels. Processor time on one core (divide by the cores) for a ball of
 //! 320, 1280, 5120 and 9680 panels: 0.010, 0.09, 1.4 and 4.9 s, growing as panels to the power 1.6,
-//! 1.9, 2.0; a leaf takes about twice as long. Memory: `4 × panels²` bytes, 100 MB for 5000 panels.
+//! 1.9, 2.0; a leaf takes about twice as long. It needs `4 × panels²` bytes, 100 MB for 5000 panels.
 //!
 //! The solve is direct. Even at 9680 panels the factorisation is an eighth of the work and the rest
 //! is integration, so that an iterative solver would gain next to nothing; going further needs a
@@ -47,10 +61,23 @@ use rapier3d::na::Vector3;
 use refine::Body;
 
 /// How well, and how large, to solve.
+///
+/// ```
+/// use rapier3d_immersed::AddedMass;
+/// use rapier3d_immersed::boundary_element::BoundaryElementParams;
+/// use rapier3d_immersed::geometry::Sheet;
+///
+/// let disc = Sheet::elliptic_disc(1.0, 1.0, 0.001, 8)?;
+/// let as_given = BoundaryElementParams { tolerance: f64::INFINITY, ..Default::default() };
+/// let (added_mass, report) = AddedMass::solve_sheet(&disc, &as_given)?;
+/// assert_eq!(report.panels, disc.triangles().len());
+/// assert!((added_mass.linear[(2, 2)] / (8.0 / 3.0) - 1.0).abs() < 0.02);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundaryElementParams {
-    /// Relative error to refine to, see [`BoundaryElementReport::estimated_error`]. Infinite: solve
-    /// on the mesh as it is given, once. Default: 0.01.
+    /// Relative error to refine to, see [`BoundaryElementReport::estimated_error`]. An infinite one solves
+    /// once, on the mesh as it is given. Default: 0.01.
     pub tolerance: f64,
     /// Refinement stops before it exceeds this many panels. Default: 6000.
     pub max_panels: usize,
@@ -129,22 +156,37 @@ pub struct BoundaryElementReport {
     pub unknowns: usize,
     /// Estimated relative error: of the linear block against its norm, of the angular block against
     /// its norm or that of the displaced fluid's inertia, of the coupling against their geometric
-    /// mean, whichever is largest. From the differences of the last meshes; none if there was only
-    /// one.
+    /// mean, whichever is largest. It follows from the differences of the last meshes, and is `None` if
+    /// there was only one.
     pub estimated_error: Option<f64>,
     /// Whether the tolerance was reached.
     pub converged: bool,
     /// Largest difference, relative in the same way, between two ways to compute the coupling and
     /// between transposed entries, before they were averaged: the error of the quadrature.
     pub asymmetry: f64,
-    /// Whether the matrix was positive definite in the end. If not, quadrature has lost to the thinness of the
-    /// body, and the result is not to be trusted.
+    /// Whether the matrix was positive definite in the end. If not, the body is too thin for the quadrature,
+    /// and the result is not to be trusted.
     pub definite: bool,
     /// Panels of every mesh that was solved, and the relative change from the one before it.
     pub history: Vec<(usize, f64)>,
 }
 
 /// A solved body: the added mass, how it went, and the potentials.
+///
+/// ```
+/// use rapier3d_immersed::boundary_element::{BoundaryElementParams, BoundaryElementSolution};
+/// use rapier3d_immersed::geometry::{Ellipsoid, Surface};
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// let ball = Surface::ellipsoid(&Ellipsoid { semi_axes: Vector3::repeat(1.0) }, 4)?;
+/// let params = BoundaryElementParams { tolerance: f64::INFINITY, ..Default::default() };
+/// let solution = BoundaryElementSolution::of_surface(&ball, &params, &|_| ())?;
+/// // A ball that moves along x has the potential −x/2 on its surface, up to the sign of the convention.
+/// for (vertex, potential) in solution.vertices.iter().zip(&solution.potentials) {
+///     assert!((potential[0].abs() - 0.5 * vertex.x.abs()).abs() < 0.02);
+/// }
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct BoundaryElementSolution {
     /// Per unit density, about [`BoundaryElementSolution::center`].
@@ -187,8 +229,8 @@ impl AddedMass {
     /// # Errors
     /// [`Error::InvalidParameter`] names a parameter; [`Error::DegenerateTriangle`] and
     /// [`Error::SelfIntersection`] name triangles; [`Error::TooManyPanels`] if the mesh itself is
-    /// larger than [`BoundaryElementParams::max_panels`]. Not to converge is no error but said in the
-    /// report.
+    /// larger than [`BoundaryElementParams::max_panels`]. A solve that does not converge is no error; the
+    /// report says so.
     pub fn solve(
         surface: &Surface,
         params: &BoundaryElementParams,
@@ -199,8 +241,8 @@ impl AddedMass {
 
     /// Added mass per unit density of a sheet, about its **center of area**.
     ///
-    /// The limit of zero thickness: motions in the plane of a flat sheet meet no fluid. A real plate
-    /// of thickness t has more, by some t/c ln(c/t) of a chord c: 1 % at t/c = 1/500.
+    /// This is the limit of zero thickness, where motions in the plane of a flat sheet meet no fluid. A real
+    /// plate of thickness t has more, by some t/c ln(c/t) of a chord c: 1 % at t/c = 1/500.
     ///
     /// # Errors
     /// Those of [`AddedMass::solve`].

@@ -7,7 +7,7 @@ use rapier3d::na::Vector3;
 /// weights sum to one).
 type Rule = [([f64; 3], f64)];
 
-/// Exact for quadratic polynomials.
+/// A rule that is exact for quadratic polynomials.
 pub(super) const THREE_POINTS: [([f64; 3], f64); 3] = {
     const A: f64 = 2.0 / 3.0;
     const B: f64 = 1.0 / 6.0;
@@ -15,7 +15,7 @@ pub(super) const THREE_POINTS: [([f64; 3], f64); 3] = {
     [([A, B, B], W), ([B, A, B], W), ([B, B, A], W)]
 };
 
-/// Exact for polynomials of degree 5 (Radon 1948).
+/// A rule that is exact for polynomials of degree 5 (Radon 1948).
 const SEVEN_POINTS: [([f64; 3], f64); 7] = {
     const A: f64 = 0.101_286_507_323_456_34;
     const B: f64 = 0.470_142_064_105_115_1;
@@ -35,7 +35,7 @@ const SEVEN_POINTS: [([f64; 3], f64); 7] = {
     ]
 };
 
-/// Meshes are full of equal lengths. Comparing to a little more than the other side makes the choice
+/// Meshes have many equal lengths. Comparing with a little more than the other length makes the choice
 /// between equals independent of rounding, and so of the axes that a body is given in.
 pub(super) const TIE: f64 = 1.0 + 1e-7;
 
@@ -165,8 +165,8 @@ mod tests {
         let q = panel([[0., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
         let root = 2f64.sqrt();
         let exact = 4.0 * (1.0 + root).ln() - 4.0 / 3.0 * (root - 1.0);
-        // Each two levels halve the strip along the diagonal that is not resolved, and the share of
-        // the integral that is at stake there falls with its square.
+        // Two more levels halve the strip along the diagonal that is not resolved, and the share of the
+        // integral that lies there falls with its square.
         for (near_field, tolerance) in [(DEFAULT, 1e-3), (DEEP, 1e-5)] {
             let both = near_field.moments(&p, &q, true);
             let sum = p.self_interaction() + q.self_interaction() + 2.0 * both.uniform;
@@ -179,8 +179,8 @@ mod tests {
         }
     }
 
-    /// Opposite faces of a leaf, much closer than they are wide: the default against a far deeper
-    /// quadrature, and either panel taken as the outer one.
+    /// For opposite faces of a leaf, much closer than they are wide, the default agrees with a far deeper
+    /// quadrature, whichever panel is the outer one.
     #[test]
     fn opposite_panels() {
         let lower = panel([[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]]);

@@ -18,7 +18,7 @@ pub(super) struct Panel {
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     direction: Vector3<f64>,
-    /// In the plane, pointing away from the triangle.
+    /// Unit normal of the edge in the panel's plane, pointing away from the triangle.
     outward: Vector3<f64>,
     length: f64,
 }
@@ -68,7 +68,7 @@ impl Panel {
 
     /// Potential of a uniform layer by Gauss's and Stokes's theorems: edge logarithms and one solid
     /// angle (Hess & Smith 1967; in the form of Wilton et al. 1984, IEEE Trans. Antennas Propag. 32;
-    /// solid angle by van Oosterom & Strackee 1983). Exact at any distance, zero included.
+    /// solid angle by van Oosterom & Strackee 1983). It is exact at any distance, zero included.
     pub fn potential(&self, x: Vector3<f64>) -> Potential {
         let to = self.corners.map(|v| v - x);
         let distance = to.map(|v| v.norm());
@@ -82,7 +82,7 @@ impl Panel {
             let end = start + edge.length;
             let inward = edge.outward.dot(&to[i]);
             let sum = near + far;
-            // A point on the edge has inward = 0: keep 0 · ln(∞) finite.
+            // A point on the edge has inward = 0, and 0 · ln(∞) must stay finite.
             let gap = (sum - edge.length).max(f64::MIN_POSITIVE);
             let logarithm = ((sum + edge.length) / gap).ln();
             uniform += inward * logarithm;
@@ -172,7 +172,7 @@ mod tests {
             Vector3::new(-0.3, 0.3, -0.2),
             p.centroid + p.normal * 0.3,
             p.centroid - p.normal * 0.3,
-            // In the plane, outside.
+            // A point in the plane, outside of the panel.
             p.corners[0] + (p.corners[1] - p.corners[0]) * 1.4,
         ] {
             // h² / 24 · ∇²-like factor at a distance ≥ .25: below 1e-5 for n = 600.
@@ -196,7 +196,7 @@ mod tests {
         let found = p.potential(Vector3::zeros());
         assert_relative_eq!(found.uniform, exact, max_relative = 1e-13);
         assert!(found.first.norm() < 1e-13);
-        // Corners and edges are finite and continuous.
+        // At corners and edges the potential is finite and continuous.
         for x in [p.corners[0], (p.corners[0] + p.corners[1]) / 2.0] {
             let inside = x + (p.centroid - x) * 1e-9;
             let (on, close) = (p.potential(x), p.potential(inside));
@@ -204,8 +204,8 @@ mod tests {
         }
     }
 
-    /// Self-interaction against the average of the exact potential over n² sub-triangles' centroids;
-    /// the potential has a log-singular slope at the rim, whence O(n⁻² ln n).
+    /// The self-interaction is the average of the exact potential over n² sub-triangles' centroids; as the
+    /// potential has a log-singular slope at the rim, the difference is O(n⁻² ln n).
     #[test]
     fn self_interaction_matches_averaged_potential() {
         let p = panel();
@@ -231,7 +231,7 @@ mod tests {
         let p = panel();
         let [a, b, c] = p.curls();
         assert!((a + b + c).norm() < 1e-14);
-        // n × ∇λ: turning it back gives a gradient that is 1 across the height over corner 0.
+        // n × ∇λ turned back is a gradient that is 1 across the height over corner 0.
         let gradient = a.cross(&p.normal);
         assert_relative_eq!(
             gradient.dot(&(p.corners[0] - p.corners[1])),

@@ -1,4 +1,4 @@
-//! What the fluid feels of a shape, with its own added mass instead of the proxy's.
+//! Properties of a shape with its own added mass instead of the proxy's.
 
 use super::shape::cells;
 use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution};
@@ -10,14 +10,14 @@ use rapier3d::na::Vector3;
 use rapier3d::parry::shape::Shape;
 
 impl HydroProperties {
-    /// The same with the added mass of these shapes together, posed in the frame.
+    /// The same properties with the added mass of these shapes together, posed in the frame.
     pub(crate) fn solved(
         self,
         parts: &[(Pose, &dyn Shape)],
         tolerance: f64,
     ) -> Result<Self, Error> {
         let (added_mass, report) = match parts {
-            // Alone in its own axes: there a ball is exact.
+            // A shape that is alone is solved in its own axes, where a ball is exact.
             [(pose, shape)] => {
                 let (own, report) = AddedMass::of_shape(*shape, Vector::ZERO, tolerance)?;
                 let pose = crate::math::isometry(pose);
@@ -36,7 +36,7 @@ impl HydroProperties {
                 report.definite,
             );
         }
-        // Turning rounds, which must not count as asymmetry.
+        // A rotation rounds, and its rounding must not count as asymmetry.
         self.with_added_mass(AddedMass::from_matrix6(&added_mass.to_matrix6()))
     }
 }

@@ -1,4 +1,4 @@
-//! Finer meshes until the tolerance is met.
+//! Refinement of the mesh until the tolerance is met.
 
 use super::pair::NearField;
 use super::solve::{Problem, Solution};
@@ -16,7 +16,7 @@ use std::collections::HashMap;
 /// the differences of the first levels would tell nothing.
 const FIRST_PANELS: usize = 150;
 
-/// Of the sum of all indicators, the share on the panels that are quartered.
+/// The panels that are quartered hold this share of the sum of all indicators.
 const MARKED_SHARE: f64 = 0.8;
 /// The least share of the panels that is quartered.
 const LEAST_MARKED: f64 = 0.25;
@@ -85,7 +85,7 @@ struct Levels<'a> {
     progress: ProgressFn<'a>,
     last: Option<(Problem, Solution)>,
     history: Vec<(usize, f64)>,
-    /// The last result, extrapolated where there is something to extrapolate from.
+    /// The last result, extrapolated if there were enough meshes.
     added_mass: AddedMass,
     error: Option<f64>,
     /// The center that all results are about: the first mesh's.
@@ -145,8 +145,8 @@ impl<'a> Levels<'a> {
                 }
                 _ => DEFAULT_RATIO,
             };
-            // A geometric series of differences (Aitken). What is added, or the last difference if
-            // that is more, is what may still be wrong.
+            // The differences are taken for a geometric series (Aitken). The error is estimated by what that
+            // adds, or by the last difference if that is more.
             let missing = ratio / (1.0 - ratio);
             self.error = Some(change * missing.max(1.0));
             self.added_mass =
@@ -251,8 +251,8 @@ pub(super) fn by_family(
 }
 
 /// Squared error indicators by panel: the jumps of the potential's slope across its edges, weighted
-/// to approximate the energy that the error holds. Unfolding the surface along an edge, a smooth
-/// potential has none; at a free edge it has the slope itself, which is infinite.
+/// to approximate the energy that the error holds. On a surface that is unfolded along an edge, a smooth
+/// potential has no jump; at a free edge the jump is the slope itself, which is infinite.
 fn indicators(problem: &Problem, solution: &Solution) -> Vec<f64> {
     let mut slopes: HashMap<(u32, u32), [f64; 6]> = HashMap::new();
     let mut edges = Vec::with_capacity(problem.panels.len() * 3);

@@ -1,4 +1,4 @@
-//! Rapier's shapes: meshed to an accuracy.
+//! The added mass of rapier's shapes, meshed as finely as an accuracy asks for.
 
 use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn};
 use crate::error::Error;

@@ -1,4 +1,4 @@
-//! From the assembled integrals to the added mass.
+//! The solve, which takes the assembled integrals to the added mass.
 
 use super::assemble::{Assembled, Elements, assemble};
 use super::pair::NearField;
@@ -18,7 +18,7 @@ pub(super) struct Problem {
     /// One list of unknowns per closed component: adding a constant on it changes nothing.
     components: Vec<Vec<u32>>,
     positions: Vec<Vector3<f64>>,
-    /// What the mesh encloses; none for a sheet.
+    /// The volume that the mesh encloses; `None` for a sheet.
     inside: Option<VolumeIntegrals>,
     /// The point about which the added mass is computed.
     center: Vector3<f64>,
@@ -26,7 +26,7 @@ pub(super) struct Problem {
 
 /// What one solve on one mesh gives.
 pub(super) struct Solution {
-    /// About the mesh's own center, see [`Problem::center`].
+    /// The added mass about [`Problem::center`].
     pub added_mass: AddedMass,
     /// Largest relative difference between two ways to compute the same entries.
     pub asymmetry: f64,
@@ -278,7 +278,7 @@ impl Problem {
     fn added_mass(&self, product: &Mat<f64>) -> (AddedMass, f64, Scale) {
         let mut m = Matrix6::from_fn(|i, j| product[(i, j)]);
         let Some(inside) = &self.inside else {
-            // −⟨μ, g⟩ is symmetric as it stands: what it lacks is rounding.
+            // −⟨μ, g⟩ is symmetric up to rounding.
             let scale = Scale::new(&m, None);
             let asymmetry = scale.relative(&(m - m.transpose()));
             return (AddedMass::from_matrix6(&m), asymmetry, scale);
@@ -293,7 +293,7 @@ impl Problem {
                 m[(3 + i, 3 + j)] = product[(3 + i, 6 + j)];
             }
         }
-        // The same coupling by way of the outer potential, and the rotation block transposed.
+        // The coupling is computed again from the outer potential, and the rotation block transposed.
         let scale = Scale::new(&m, Some(inside));
         let mut difference = Matrix6::zeros();
         for i in 0..3 {
@@ -329,7 +329,7 @@ impl Problem {
 /// rounding, so that the tensor stays positive in all later arithmetic.
 const LEAST_ENERGY: f64 = 1e-12;
 
-/// Magnitudes that errors of the blocks are relative to; the same in all axes.
+/// The magnitudes that errors of the blocks are relative to; they do not depend on the axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
     linear: f64,
@@ -348,7 +348,7 @@ impl Scale {
         }
     }
 
-    /// Of the energy of one of the six unit motions.
+    /// The magnitude of the energy of one of the six unit motions.
     pub fn of_motion(&self, motion: usize) -> f64 {
         if motion < 3 {
             self.linear
@@ -358,7 +358,7 @@ impl Scale {
     }
 
     /// The nearest tensor without negative energies. Motions that hardly move fluid, such as the spin
-    /// of a disc, come out as zero give or take the error, and run time must not see the latter half.
+    /// of a disc, come out as zero plus or minus the error, and run time must not see negative ones.
     pub fn positive(&self, added_mass: &AddedMass) -> AddedMass {
         let unit = Vector6::from_fn(|i, _| self.of_motion(i).sqrt());
         let scaled = added_mass
@@ -375,7 +375,7 @@ impl Scale {
         AddedMass::from_matrix6(&positive.map_with_location(|i, j, x| x * unit[i] * unit[j]))
     }
 
-    /// The norm of each block of a difference relative to its scale; the largest.
+    /// The largest norm of a block of a difference, relative to the block's scale.
     pub fn relative(&self, difference: &Matrix6<f64>) -> f64 {
         let norm = |i: usize, j: usize| difference.fixed_view::<3, 3>(i, j).norm();
         (norm(0, 0) / self.linear)

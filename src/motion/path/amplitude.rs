@@ -10,6 +10,16 @@ use rand_distr::{Distribution, StandardNormal};
 /// The thesis takes the form from thousands of falls of paper (Razavi 2010) without printing k, B or C;
 /// the defaults are ours. A coin (L = a) then lands .3 ± .1 of its height away. A public data set of Czech
 /// coins in a tank of water (38 × 32 × 38 cm) has medians of 12 to 16 cm, which no test holds ours to.
+///
+/// ```
+/// use rapier3d_immersed::motion::path::Deviation;
+///
+/// // A coin (L = a) from 2 m lands 0.3 of its height away from below its release.
+/// let deviation = Deviation::default();
+/// assert!((deviation.distance(1.0, 2.0) - 0.6).abs() < 1e-12);
+/// let calm = Deviation { coefficient: 0.5, ..deviation };
+/// assert!((calm.distance(1.0, 2.0) - 0.3).abs() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -22,7 +32,7 @@ pub struct Deviation {
     pub mean: f64,
     /// C: width, √2 standard deviations, per unit of height. Default 0.15.
     pub width: f64,
-    /// The same across the heading, about 0. Default 0, as in the thesis, whose falls are plane unless
+    /// Width across the heading, about a mean of 0. Default 0, as in the thesis, whose falls are plane unless
     /// they circle.
     pub across: f64,
 }
@@ -86,9 +96,9 @@ pub(super) const SMALLEST_FACTOR: f64 = 0.1;
 
 /// r ∈ [0.1, 10], by which a chaotic segment is larger than a regular one (thesis § 3.3.5). Normal in
 /// log₁₀ r, standard deviation ⅓, drawn again beyond the ends: the thesis names Box–Muller and the
-/// range only. It is a factor on lengths and times in the glide plane; what the segment bobs up and down
-/// beside a steady descent is never larger than in a regular one.
-pub fn chaotic_factor(random: &mut impl Rng) -> f64 {
+/// range only. It is a factor on lengths and times in the glide plane; the vertical oscillation about a
+/// steady descent is never larger than in a regular segment.
+pub(super) fn chaotic_factor(random: &mut impl Rng) -> f64 {
     loop {
         let normal: f64 = StandardNormal.sample(random);
         if normal.abs() <= 3.0 {
@@ -114,7 +124,7 @@ mod tests {
         };
         assert!((deviation.distance(4.0, 3.0) - 2.4).abs() < 1e-12);
         assert!((deviation.amplitude(4.0, 0.8, 5.0) - 2.4 * 0.8 / (3.0 * 5.0)).abs() < 1e-12);
-        // exp(−(r/C)²) has the standard deviation C/√2.
+        // The density exp(−(r/C)²) has the standard deviation C/√2.
         assert!((deviation.spread(4.0, 3.0) - 1.2 / 2f64.sqrt()).abs() < 1e-12);
         assert!((deviation.spread_across(4.0, 3.0) - 0.48 / 2f64.sqrt()).abs() < 1e-12);
     }

@@ -8,7 +8,22 @@ use rapier3d::na::Vector2;
 use smartcore::cluster::kmeans::{KMeans, KMeansParameters};
 use smartcore::linalg::basic::matrix::DenseMatrix;
 
-/// What a database is baked from.
+/// The parameters of [`TrajectoryDatabase::bake`].
+///
+/// ```
+/// use rapier3d_immersed::motion::path::{DatabaseParams, TrajectoryDatabase};
+///
+/// let params = DatabaseParams {
+///     steps: [4, 2, 8],
+///     classes: 4,
+///     fluid_shares: vec![0.14],
+///     ..DatabaseParams::default()
+/// };
+/// let (database, report) = TrajectoryDatabase::bake(&params)?;
+/// assert_eq!(database.entries().len(), 2 * 4 * 2 * 8); // each segment glides left or right
+/// assert!(report.flutter > 0 && report.tumbling > 0);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DatabaseParams {
     /// Smallest and largest A_x, in U. Default 0.1 and 3.
@@ -51,16 +66,16 @@ impl Default for DatabaseParams {
     }
 }
 
-/// What became of the solutions of (3.4).
+/// How many solutions of (3.4) did what.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BakeReport {
     /// Solutions that flutter, of which the angles are kept.
     pub flutter: usize,
-    /// Solutions that tumble, likewise.
+    /// Solutions that tumble, of which the angles are kept too.
     pub tumbling: usize,
-    /// Solutions that do both; dropped, because a chaotic fall is put together from the others.
+    /// Solutions that do both. They are dropped, because a chaotic fall is put together from the others.
     pub chaotic: usize,
-    /// Solutions without a steady swing (thesis Fig. 3.4b), dropped.
+    /// Solutions without a steady swing (thesis Fig. 3.4b), which are dropped.
     pub straight: usize,
 }
 

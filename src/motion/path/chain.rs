@@ -14,6 +14,17 @@ impl MotionGraph {
     /// in its regime for four segments on average (probability ¾); each regime further on is half as
     /// likely as the one before it; any start is as likely as any other ("starts from a random
     /// motion pattern"). [`MotionGraph::estimate`] counts a graph from labelled falls.
+    ///
+    /// ```
+    /// use rapier3d_immersed::motion::{MotionGraph, Regime};
+    ///
+    /// let graph = MotionGraph::free_fall();
+    /// let [flutter, tumbling] = [Regime::PeriodicFlutter, Regime::PeriodicTumbling].map(|r| r as usize);
+    /// assert_eq!(graph.probability(flutter, flutter), 0.75);
+    /// // Nothing leads back.
+    /// assert!(graph.probability(flutter, tumbling) > 0.0);
+    /// assert_eq!(graph.probability(tumbling, flutter), 0.0);
+    /// ```
     pub fn free_fall() -> Self {
         let states = Regime::ALL.len();
         let row = |from: usize| -> Vec<f64> {
@@ -35,7 +46,17 @@ impl MotionGraph {
 }
 
 /// Motion classes up to a main regime: every set of regimes up to it, in order. There are Σ C(k, i) =
-/// 2^k − 1 of them (3.11) if it is the k-th.
+/// 2^k − 1 of them (3.11) if it is the k-th. [`Synthesizer::path_through`](super::Synthesizer::path_through)
+/// makes a fall of one.
+///
+/// ```
+/// use rapier3d_immersed::motion::Regime;
+/// use rapier3d_immersed::motion::path::motion_classes;
+///
+/// let classes = motion_classes(Regime::PeriodicFlutter);
+/// let (steady, flutter) = (Regime::SteadyDescent, Regime::PeriodicFlutter);
+/// assert_eq!(classes, [vec![steady], vec![flutter], vec![steady, flutter]]);
+/// ```
 pub fn motion_classes(main: Regime) -> Vec<Vec<Regime>> {
     let level = main as u32 + 1;
     (1..1u32 << level)
@@ -72,7 +93,7 @@ pub(super) fn calmed(graph: &MotionGraph, share: f64) -> Result<MotionGraph, Err
 mod tests {
     use super::*;
 
-    /// (3.13): nothing leads back, neither within the plane patterns nor from the spatial ones.
+    /// Nothing leads back, neither within the plane patterns nor from the spatial ones (3.13).
     #[test]
     fn the_graph_is_block_triangular() {
         let graph = MotionGraph::free_fall();

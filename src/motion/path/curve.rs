@@ -7,6 +7,17 @@ use rapier3d::na::Vector3;
 ///
 /// ε = 0 is a spiral (the thesis's PS), A = 0 steady descent (SD), ε ≠ 0 and k = 4 a helix (TH): a rose
 /// of four petals for ε < 1. For ε > 1 the radius changes sign and there are eight, as the thesis says.
+///
+/// ```
+/// use rapier3d_immersed::motion::path::UnifiedCurve;
+///
+/// // A spiral of 10 cm that turns once per second while it descends 0.8 m.
+/// let spiral = UnifiedCurve::spiral(0.1, std::f64::consts::TAU, 0.8);
+/// let (start, turn) = (spiral.position(0.0), spiral.position(1.0));
+/// assert!((turn - start).xz().norm() < 1e-12 && (turn.y + 0.8).abs() < 1e-12);
+/// let centripetal = 0.1 * std::f64::consts::TAU.powi(2);
+/// assert!((spiral.acceleration(0.3).norm() - centripetal).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnifiedCurve {
     /// A: mean radius, m.
@@ -22,7 +33,7 @@ pub struct UnifiedCurve {
 }
 
 impl UnifiedCurve {
-    /// Straight down.
+    /// A fall straight down.
     pub fn steady(descent: f64) -> Self {
         Self {
             amplitude: 0.0,

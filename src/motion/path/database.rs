@@ -25,7 +25,20 @@ pub struct Entry {
 
 /// Segments, the angles along them, and an index by feature vector.
 ///
-/// Baked by `TrajectoryDatabase::bake` (feature `bake`), or the one that ships with the crate.
+/// [`TrajectoryDatabase::shipped`] is the one that ships with the crate; `TrajectoryDatabase::bake` (feature
+/// `bake`) makes others.
+///
+/// ```
+/// use rapier3d_immersed::motion::path::TrajectoryDatabase;
+/// use rapier3d_immersed::rapier3d::na::Vector2;
+///
+/// // The segment that comes nearest to a glide of two chords to the right and one down.
+/// let database = TrajectoryDatabase::shipped();
+/// let wanted = Vector2::new(2.0, -1.0);
+/// let found = database.find(wanted, 0.0, &mut rand::rng());
+/// assert!((found.segment.feature() - wanted).norm() < 0.5);
+/// assert_eq!(found.class, database.class_of(wanted));
+/// ```
 #[derive(Clone, Debug)]
 pub struct TrajectoryDatabase {
     pub(super) entries: Vec<Entry>,
@@ -46,7 +59,7 @@ impl PartialEq for TrajectoryDatabase {
     }
 }
 
-/// Where a feature vector lies in the index: lengths by ratio, because segments span decades.
+/// The place of a feature vector in the index, where lengths count by ratio, because they span decades.
 pub(super) fn place(feature: &Vector2<f64>) -> [f64; 2] {
     let across = (feature.x.abs() + 1e-3).ln() - 1e-3f64.ln();
     [across.copysign(feature.x), (-feature.y).max(1e-9).ln()]
@@ -168,7 +181,7 @@ impl TrajectoryDatabase {
     }
 
     /// Angle to the horizontal of the flattest feature vector, rad.
-    pub fn flattest(&self) -> f64 {
+    pub(super) fn flattest(&self) -> f64 {
         self.flattest
     }
 
@@ -225,7 +238,7 @@ mod tests {
         })
     }
 
-    /// The index of a class against looking at every segment of it.
+    /// The index of a class finds what a search through all of its segments finds.
     #[test]
     fn the_nearest_of_the_class_is_found() {
         let database = TrajectoryDatabase::shipped();

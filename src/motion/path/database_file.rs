@@ -17,7 +17,7 @@ const FILE: FileKind = FileKind {
 const MOST: u64 = 1 << 20;
 
 impl TrajectoryDatabase {
-    /// This as the bytes of a file.
+    /// The bytes of a file that holds this database.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut writer = Writer::default();
         writer.u64(self.entries.len() as u64);
@@ -161,7 +161,7 @@ mod tests {
         }
     }
 
-    /// Rightly framed, but wrong.
+    /// Files with the right frame and wrong content are refused.
     #[test]
     fn bad_databases_are_refused() {
         let refused = |change: &dyn Fn(&mut TrajectoryDatabase)| {

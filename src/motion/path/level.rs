@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 pub(super) struct Level<'a> {
     regime: Regime,
     glide: Option<(Glide, &'a Entry, f64)>,
-    /// s.
+    /// How long it lasts, s.
     duration: f64,
     /// Factor on the lengths and times of its segment.
     stretch: f64,
@@ -43,7 +43,7 @@ impl Synthesizer {
             variety: self.params.variety,
         };
         let regular_tree = tree(feature);
-        // V_0 of thesis § 3.3.5.
+        // This is V_0 of thesis § 3.3.5.
         let released = tree(match self.params.release_angle {
             Some(angle) => {
                 let angle = angle.abs().max(self.database.flattest());
@@ -123,8 +123,9 @@ impl Synthesizer {
                         g == glide && small >= 0.5 && large <= 2.0 * small
                     })
                 };
-                // A glide r times as long has A_y/r: it bobs no farther than a regular one. The height
-                // then follows a steady descent everywhere, not only at turning points.
+                // A glide r times as long has A_y/r, so that its vertical oscillation is no larger than a
+                // regular one's. The height then follows a steady descent everywhere, not only at turning
+                // points.
                 let mut segment = entry.segment;
                 segment.flutter.vertical /= scale.max(1.0);
                 Course::Glide {

@@ -1,4 +1,4 @@
-//! What a user chooses about synthesized falls.
+//! The parameters of synthesized falls.
 
 use super::amplitude::Deviation;
 use crate::error::Error;
@@ -16,14 +16,14 @@ pub struct SynthesisParams {
     pub diagram: PhaseDiagram,
     /// Which regime follows which. Default [`MotionGraph::free_fall`].
     pub graph: MotionGraph,
-    /// How far falls land from below their release; gives the amplitude too. Default
+    /// How far falls land from below their release, which gives the amplitude too. Default
     /// [`Deviation::default`].
     pub deviation: Deviation,
     /// Ω over U/a: angular frequency of flutter and tumbling, Ω ~ √((ρ_s/ρ_f − 1) g b)/a (thesis § 3.3.5 has
     /// √b/a, after Mahadevan, Ryu & Samuel 1999). Default 1.
     pub frequency: f64,
-    /// Amplitude over the A_0 of (3.10), whose swing is just as fast as the fall drifts away, so that
-    /// nothing would ever swing back. Default 2.5 (ours).
+    /// Amplitude over the A_0 of (3.10). With A_0 itself a swing would be just as fast as the fall drifts
+    /// away, so that nothing would ever swing back. Default 2.5 (ours).
     pub swing: f64,
     /// How much slower a spiral or helix turns than a flutter swings. Default 3 (ours).
     pub slowness: f64,
@@ -38,7 +38,7 @@ pub struct SynthesisParams {
     /// the first pattern begins with, either way, and the V_0 that amplitude and frequency give.
     pub release_angle: Option<f64>,
     /// Share of a K-means class among which a segment is drawn, the nearest of it first: 0 takes the
-    /// nearest, 1 any of its class. Default 0.05: no two swings of a fall are alike.
+    /// nearest, 1 any of its class. With the default of 0.05 no two swings of a fall are alike.
     pub variety: f64,
     /// Mean wind, m/s: tumbling and chaotic motion become rarer in it. Default 0.
     pub wind: f64,
@@ -77,6 +77,14 @@ impl SynthesisParams {
     /// Falls in the regime that a [case of the thesis](PhaseDiagram::THESIS_CASES) shows at the numbers
     /// that it prints, whatever the diagram says of those that are computed for the body. Two of its
     /// three bodies have quite other numbers, and its coin lies just beyond flutter.
+    ///
+    /// ```
+    /// use rapier3d_immersed::motion::path::SynthesisParams;
+    /// use rapier3d_immersed::motion::{PhaseDiagram, Regime};
+    ///
+    /// let coin = SynthesisParams::of_case(&PhaseDiagram::THESIS_CASES[0]);
+    /// assert_eq!(coin.main, Some(Regime::PeriodicFlutter));
+    /// ```
     pub fn of_case(case: &Case) -> Self {
         Self {
             main: Some(case.regime),

@@ -21,7 +21,7 @@ pub(super) enum Course<'a> {
     /// A segment between two turning points.
     Glide {
         segment: Segment,
-        /// Factor on its lengths and times; velocities keep.
+        /// Factor on its lengths and times, which leaves velocities as they are.
         stretch: f64,
         flutter: &'a AngleCurve,
         tumbling: &'a AngleCurve,
@@ -32,7 +32,7 @@ pub(super) enum Course<'a> {
     },
     /// A spiral or helix, from its first point and tangent on; `sense` is the way it turns.
     Curve { curve: UnifiedCurve, sense: f64 },
-    /// Straight down.
+    /// A fall straight down.
     Straight,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Units {
 /// Tangent of the steepest bank.
 const STEEPEST: f64 = 1.2;
 
-/// 0 to 1, flat at both ends.
+/// A step from 0 to 1 that is flat at both ends.
 fn smooth(s: f64) -> f64 {
     let s = s.clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
@@ -77,7 +77,7 @@ impl Course<'_> {
                 let time = t * units.descent / length;
                 let (p, v) = (segment.position(time), segment.velocity(time));
                 let share = t / duration;
-                // Angles at each end as its turn asks for.
+                // The turn at each end decides about the angle there.
                 let [start, end] = over.map(|over| {
                     if over {
                         tumbling.at(share)
@@ -144,8 +144,8 @@ pub(super) struct Piece<'a> {
 
 impl<'a> Piece<'a> {
     /// A piece after one that ended at `before`: it starts where that ended, a velocity difference Δv
-    /// is worked off as Δv t(1 − t/T)² (no displacement is left), a rotation by a smooth step. A piece
-    /// shorter than T hands what is left to the next one.
+    /// fades as Δv t(1 − t/T)² (no displacement is left), a rotation by a smooth step. A piece shorter
+    /// than T leaves the rest to the next one.
     pub fn after(
         before: Option<&Instant>,
         course: Course<'a>,
@@ -211,7 +211,7 @@ mod tests {
     fn bank_of_a_turn() {
         let attitude = banked(&Vector3::new(0.3, 0.0, 0.0), &Vector3::z(), 10.0);
         let normal = attitude * Vector3::y();
-        // To second order in the limit of the bank: (0.03/1.2)²/2.
+        // The limit of the bank changes it to second order, by (0.03/1.2)²/2.
         assert!((normal.x / normal.y / 0.03 - 1.0).abs() < 1e-3);
         assert!((attitude * Vector3::x() - Vector3::z()).norm() < 1e-6);
         let steep = banked(&Vector3::new(1e6, 0.0, 0.0), &Vector3::z(), 10.0) * Vector3::y();

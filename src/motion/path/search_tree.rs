@@ -11,7 +11,7 @@ use rapier3d::na::Vector2;
 /// Flutter takes the other branch at each level (gl, gr, gl, …), tumbling the same (gl, gl, …), chaotic
 /// motion either.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SearchTree {
+pub(super) struct SearchTree {
     /// Feature vector of a regular glide to the right, in the database's units.
     pub feature: Vector2<f64>,
     /// Share of the class of a feature vector among which a segment is drawn, the nearest first.
@@ -62,7 +62,7 @@ mod tests {
         walk
     }
 
-    /// Fig. 3.7 (2)–(4).
+    /// The walks are those of thesis Fig. 3.7 (2)–(4).
     #[test]
     fn four_levels() {
         assert_eq!(
@@ -88,7 +88,7 @@ mod tests {
             for glide in [Left, Right] {
                 let found = tree.child(&database, glide, scale, &mut random).segment;
                 assert_eq!(found.glide, glide);
-                // Within a step of the database's ranges: 30^(1/9) across, 150^(1/32) down.
+                // It lies within a step of the database's ranges: 30^(1/9) across, 150^(1/32) down.
                 let ratio = found.feature().component_div(&(tree.feature * scale));
                 assert!((ratio.x.abs().ln() / 30f64.ln()).abs() < 1.0 / 9.0);
                 assert!((ratio.y.ln() / 150f64.ln()).abs() < 1.0 / 32.0);

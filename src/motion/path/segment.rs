@@ -65,9 +65,9 @@ impl HarmonicFlutter {
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub enum Glide {
-    /// Toward −x.
+    /// It glides toward −x.
     Left,
-    /// Toward +x.
+    /// It glides toward +x.
     Right,
 }
 
@@ -97,13 +97,25 @@ impl Glide {
 /// A flutter between two successive turning points.
 ///
 /// Every segment begins and ends with the velocity (0, −U): any two of them join smoothly.
+///
+/// ```
+/// use rapier3d_immersed::motion::path::{Glide, HarmonicFlutter, Segment};
+///
+/// let flutter = HarmonicFlutter { horizontal: 1.5, vertical: 0.5, frequency: 2.0 };
+/// let right = Segment { flutter, glide: Glide::Right };
+/// // From turn to turn it goes 2A_x/Ω across and π/Ω down.
+/// let feature = right.feature();
+/// assert!((feature.x - 1.5).abs() < 1e-12);
+/// assert!((feature.y + std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+/// assert!((right.velocity(0.0) - right.velocity(right.duration())).norm() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct Segment {
-    /// What it is cut from.
+    /// The flutter that it is cut from.
     pub flutter: HarmonicFlutter,
     /// Which way it glides.
     pub glide: Glide,
@@ -163,7 +175,7 @@ mod tests {
         }
     }
 
-    /// At turning points the path turns: no horizontal velocity, and a velocity that all flutters share.
+    /// At turning points there is no horizontal velocity, and the vertical one is the same for all flutters.
     #[test]
     fn every_segment_begins_and_ends_alike() {
         for glide in [Glide::Left, Glide::Right] {

@@ -4,14 +4,25 @@ use crate::motion::trajectory::principal_variances;
 use rapier3d::na::{Matrix2, Vector2, Vector3};
 
 /// Measures of the horizontal projection of a path.
+///
+/// ```
+/// use rapier3d_immersed::motion::path::{HorizontalShape, UnifiedCurve};
+///
+/// let helix = UnifiedCurve::helix(0.1, 0.3, 2.0, 1.0);
+/// let turn = std::f64::consts::PI;
+/// let points: Vec<_> = (0..240).map(|i| helix.position(turn * f64::from(i) / 240.0)).collect();
+/// let shape = HorizontalShape::of(&points);
+/// assert_eq!(shape.petals, 4);
+/// assert!((shape.extent - 0.13).abs() < 1e-3); // A (1 + ε)
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HorizontalShape {
     /// Largest distance of a point from the mean, m. The other numbers mean nothing if it is zero.
     pub extent: f64,
     /// 1 − √(λ₂/λ₁) with the variances λ₁ ≥ λ₂ along the principal axes: 1 for a straight line.
     pub linearity: f64,
-    /// 4π area/perimeter² of the closed polygon of the points, at most 1: 1 for a circle. For one turn
-    /// about the mean.
+    /// 4π area/perimeter² of the closed polygon of the points, at most 1, which a circle has. It means
+    /// something for one turn about the mean.
     pub circularity: f64,
     /// Maxima of the distance from the mean that rise above the minima beside them by 5 % of the extent,
     /// for one turn.

@@ -17,6 +17,27 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Makes falls of one body in one fluid, each from a seed.
+///
+/// ```
+/// use rapier3d_immersed::Fluid;
+/// use rapier3d_immersed::motion::path::{SynthesisParams, Synthesizer, TrajectoryDatabase};
+/// use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, Regime};
+///
+/// // A leaf of 7.3 × 4.2 × 0.03 cm that flutters, from 3 m.
+/// let numbers = DimensionlessNumbers::new(Outline::Round, 0.042, 3e-4, 400.0, &Fluid::AIR, 9.81)?;
+/// let params = SynthesisParams {
+///     height: 3.0,
+///     main: Some(Regime::PeriodicFlutter),
+///     ..SynthesisParams::default()
+/// };
+/// let leaf = Synthesizer::new(&numbers, 0.073, TrajectoryDatabase::shipped(), params)?;
+/// let path = leaf.path(1);
+/// assert!((f64::from(path.duration()) - 3.0 / leaf.descent()).abs() < 0.01);
+/// let end = path.at(path.duration());
+/// assert!((end.position.y + 3.0).abs() < 1e-3);
+/// assert_ne!(path, leaf.path(2)); // every seed gives another fall
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Synthesizer {
     pub(super) database: Arc<TrajectoryDatabase>,
@@ -35,8 +56,8 @@ pub struct Synthesizer {
 const MOST_KEYS: f64 = 1e6;
 
 impl Synthesizer {
-    /// For a body with these numbers and a longest extent of `length` m (the thesis's L; its a is the
-    /// numbers' chord).
+    /// A synthesizer for a body with these numbers and a longest extent of `length` m (the thesis's L; its a
+    /// is the numbers' chord).
     ///
     /// # Errors
     /// Those of [`SynthesisParams::check`]; [`Error::InvalidParameter`] if the length is not positive or
@@ -81,7 +102,7 @@ impl Synthesizer {
         })
     }
 
-    /// The regime that falls end in, if they are high enough.
+    /// The regime in which falls end that are high enough.
     pub fn main(&self) -> Regime {
         self.main
     }
@@ -105,7 +126,8 @@ impl Synthesizer {
     /// gives the same fall.
     ///
     /// It takes h/U and lands at a turning point, at (r, −h, s), r and s drawn from the
-    /// [`Deviation`](super::Deviation), less for the time that it falls steadily (a tenth counts); whoever places it in the world turns it about the vertical.
+    /// [`Deviation`](super::Deviation), less for the time that it falls steadily (a tenth counts). Whoever
+    /// places it in the world turns it about the vertical.
     pub fn path(&self, seed: u64) -> MotionPath {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let mut state: Option<usize> = None;
@@ -122,6 +144,18 @@ impl Synthesizer {
     /// A fall of chosen regimes, each for an equal share of the time; a short fall does not come to the
     /// last ones.
     ///
+    /// ```
+    /// # use rapier3d_immersed::Fluid;
+    /// # use rapier3d_immersed::motion::path::{SynthesisParams, Synthesizer, TrajectoryDatabase};
+    /// # use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, Regime};
+    /// # let numbers = DimensionlessNumbers::new(Outline::Round, 0.042, 3e-4, 400.0, &Fluid::AIR, 9.81)?;
+    /// # let params = SynthesisParams { height: 3.0, ..SynthesisParams::default() };
+    /// # let leaf = Synthesizer::new(&numbers, 0.073, TrajectoryDatabase::shipped(), params)?;
+    /// let regimes = [Regime::PeriodicFlutter, Regime::PeriodicTumbling];
+    /// assert_eq!(leaf.path_through(&regimes, 1)?.sequence(), regimes);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::WrongLength`] if there is no regime.
     pub fn path_through(&self, regimes: &[Regime], seed: u64) -> Result<MotionPath, Error> {
@@ -135,7 +169,7 @@ impl Synthesizer {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let share = self.duration() / regimes.len() as f64;
         Ok(self.fall(&mut random, |time, _| {
-            // The boundary nearest to a turning point.
+            // The change of regime lies at the turning point that is nearest to the boundary of a share.
             let index = ((time + 0.25 * PI / self.frequency) / share) as usize;
             (
                 *regimes.get(index).unwrap_or(last),
@@ -167,11 +201,11 @@ impl Synthesizer {
             let piece = &pieces[after.max(1) - 1];
             piece.at(time - piece.start, &self.units)
         };
-        // What is left to the landing is spread over the fall; it is level but for rounding.
+        // The distance that is missing to the landing is spread over the fall; its height is only rounding.
         let drift = (landing - at(duration).position) / drifts.until(duration).0;
         let count = (duration / self.params.interval).ceil().max(1.0);
         let interval = duration / count;
-        // Plate axes (long axis x, normal z) in the glide plane's (long axis z, normal y).
+        // This turns plate axes (long axis x, normal z) into the glide plane's (long axis z, normal y).
         let axes = Matrix3::from_columns(&[Vector3::z(), Vector3::x(), Vector3::y()]);
         let axes = Rotation3::from_matrix_unchecked(axes);
         let axes = UnitQuaternion::from_rotation_matrix(&axes);
@@ -242,7 +276,7 @@ mod tests {
             for pair in path.keys().windows(2) {
                 let mean = (pair[0].velocity + pair[1].velocity) * 0.5;
                 let jump = (pair[1].position - pair[0].position - mean * h).length();
-                // One percent of the smaller extent.
+                // The tolerance is one percent of the smaller extent.
                 assert!(jump < 0.00042, "{class:?} {jump}");
             }
         }

@@ -11,11 +11,19 @@ use crate::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A strip in its glide plane: linear drag, Kutta lift, and the torque of its center of pressure.
+///
+/// ```
+/// use rapier3d_immersed::motion::path::{Fall, TanabeKaneko};
+///
+/// // With the thesis's drag rates a strip that is released at 0.3 rad flutters (Fig. 3.4a).
+/// let states = TanabeKaneko::default().solve(0.3, 4e-3, 5000); // 20 s
+/// assert_eq!(Fall::of(&states), Fall::Flutter);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TanabeKaneko {
     /// A⊥: drag rate across the strip, 1/s. Default 4.1 (thesis Fig. 3.4a).
     pub across: f64,
-    /// A∥: drag rate along the strip, 1/s. Default 0.9 (same).
+    /// A∥: drag rate along the strip, 1/s. Default 0.9 (thesis Fig. 3.4a).
     pub along: f64,
     /// ρ_f L/m: mass of fluid L² over that of the strip, per depth. Default 0.14: with it the thesis's
     /// drag rates flutter; it prints none.
@@ -44,11 +52,11 @@ pub type State = [f64; 6];
 /// What a solution does once it has settled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fall {
-    /// Swings from side to side at a steady amplitude.
+    /// It swings from side to side at a steady amplitude.
     Flutter,
-    /// Turns over in one direction.
+    /// It turns over in one direction.
     Tumbling,
-    /// Both in turn.
+    /// It does both in turn.
     Chaotic,
     /// A swing that dies away into a straight fall, or a fall that never swings: useless as a source of
     /// orientations (thesis Fig. 3.4b).
@@ -193,8 +201,9 @@ impl AngleCurve {
     }
 
     /// The segments of a settled solution: of a flutter from turning point to turning point, of a tumble
-    /// from one upright position to the next. The mean of all of them, left ones mirrored; the ends of a
-    /// flutter made equal and opposite. `None` where the solution is neither, or too short.
+    /// from one upright position to the next. The curve is the mean of all of them, left ones mirrored, and
+    /// the ends of a flutter are made equal and opposite. It is `None` if the solution is neither, or too
+    /// short.
     pub fn of(states: &[State]) -> Option<(Fall, Self)> {
         let fall = Fall::of(states);
         let half = &states[states.len() / 2..];

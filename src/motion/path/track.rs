@@ -16,11 +16,30 @@ pub struct Key {
     /// Its velocity, m/s.
     pub velocity: Vector,
     /// Rotation of the plate axes (x longest, z normal, as
-    /// [`Planform::axes`](crate::hydro::planform::Planform)) into the fall's frame.
+    /// [`Planform::axes`](crate::Planform)) into the fall's frame.
     pub attitude: Rotation,
 }
 
 /// A fall from its release at the origin: keyframes at equal intervals, and which regime is when.
+///
+/// A [`Synthesizer`](super::Synthesizer) makes them; they can also be made of motion from elsewhere:
+///
+/// ```
+/// use rapier3d_immersed::motion::Regime;
+/// use rapier3d_immersed::motion::path::{Key, MotionPath};
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// // Half a second straight down, without a turn.
+/// let keys = (0..=5).map(|i| Key {
+///     position: Vector::Y * (-0.1 * i as f32),
+///     velocity: -Vector::Y,
+///     attitude: Rotation::IDENTITY,
+/// });
+/// let path = MotionPath::new(0.1, keys.collect(), vec![(0.0, Regime::SteadyDescent)])?;
+/// assert!((path.duration() - 0.5).abs() < 1e-6);
+/// assert!((path.at(0.25).position.y + 0.25).abs() < 1e-6);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -79,7 +98,7 @@ impl MotionPath {
         mut keys: Vec<Key>,
         regimes: Vec<(Real, Regime)>,
     ) -> Result<Self, Error> {
-        // Neighbouring quaternions on the same side, so that they can be interpolated.
+        // Neighbouring quaternions must have the same sign to be interpolated.
         for i in 1..keys.len() {
             if keys[i].attitude.dot(keys[i - 1].attitude) < 0.0 {
                 keys[i].attitude = -keys[i].attitude;
@@ -202,7 +221,7 @@ impl MotionPath {
         }
     }
 
-    /// This as the bytes of a file.
+    /// The bytes of a file that holds this path.
     #[cfg(feature = "serde-serialize")]
     pub fn to_bytes(&self) -> Vec<u8> {
         crate::file::encode(&FILE, self)
@@ -236,7 +255,7 @@ mod tests {
             Key {
                 position,
                 velocity,
-                // Beyond half a turn: the quaternion changes its sign.
+                // Beyond half a turn the quaternion changes its sign.
                 attitude: Rotation::from_axis_angle(Vector::Z, 2.0 * t),
             }
         });
@@ -254,7 +273,7 @@ mod tests {
             let key = path.at(t);
             assert!((key.position - position).length() < 1e-5);
             assert!((key.velocity - velocity).length() < 1e-4);
-            // A chord between quaternions 0.5 rad apart is at most 1e-3 rad off at its quarters.
+            // At its quarters, a chord between quaternions 0.5 rad apart is at most 1e-3 rad off.
             let angle = key
                 .attitude
                 .angle_between(Rotation::from_axis_angle(Vector::Z, 2.0 * t));

@@ -6,6 +6,16 @@ use crate::flow::Flow;
 use rapier3d::math::{Real, Rotation, Vector};
 
 /// How a synthesized fall gives way to wind.
+///
+/// ```
+/// use rapier3d_immersed::motion::path::WindResponse;
+/// use rapier3d_immersed::rapier3d::prelude::*;
+///
+/// // In the mean wind along x a body leans downwind by 0.4 rad.
+/// let lean = WindResponse::default().lean(Vector::X * 3.0);
+/// assert!((lean * Vector::Y).angle_between(Vector::Y) - 0.4 < 1e-5);
+/// assert!((lean * Vector::Y).x > 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindResponse {
     /// |U|: mean speed of the wind, m/s, that leaning is measured by. Default 3.
@@ -48,7 +58,7 @@ impl WindResponse {
             return Rotation::IDENTITY;
         }
         let strength = (wind.length() / self.mean_speed).min(2.0);
-        // Straight up- or downwind there is no axis; fade toward it.
+        // A vertical wind has no axis to lean about, so that the lean fades toward it.
         let share = across / wind.length();
         Rotation::from_axis_angle(axis / across, self.angle * strength * share)
     }
@@ -85,8 +95,27 @@ fn bezier(points: &[Vector], i: usize, s: Real) -> (Vector, Vector) {
 impl MotionPath {
     /// The same fall in a wind, released at `start` (world axes, m) and `time` (s) and turned by
     /// `heading` about the vertical (rad): p₁ = p′ + u δt at every keyframe, smoothed by Bézier curves
-    /// with these as control points, and leaning with the wind. Relative to `start`, in world axes: its
-    /// own heading is 0.
+    /// with these as control points, and leaning with the wind. The result is relative to `start` in world
+    /// axes, so that its own heading is 0.
+    ///
+    /// ```
+    /// use rapier3d_immersed::flow::Uniform;
+    /// use rapier3d_immersed::motion::Regime;
+    /// use rapier3d_immersed::motion::path::{Key, MotionPath, WindResponse};
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// let keys = (0..=120).map(|i| Key {
+    ///     position: Vector::Y * (-i as f32 / 120.0),
+    ///     velocity: -Vector::Y,
+    ///     attitude: Rotation::IDENTITY,
+    /// });
+    /// let fall = MotionPath::new(1.0 / 120.0, keys.collect(), vec![(0.0, Regime::SteadyDescent)])?;
+    /// let wind = Uniform::new(2.0, 0.0, 0.0);
+    /// let blown = fall.in_wind(&wind, Vector::ZERO, 0.0, 0.0, &WindResponse::default())?;
+    /// // After a second in a wind of 2 m/s it lands 2 m downwind.
+    /// assert!((blown.at(1.0).position - Vector::new(2.0, -1.0, 0.0)).length() < 0.02);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     ///
     /// # Errors
     /// Those of [`WindResponse::check`]; [`Error::NotFinite`] if the flow or the release is not finite.
@@ -163,7 +192,7 @@ mod tests {
             let (p, v) = bezier(&points, i, 1.0);
             let (q, w) = bezier(&points, i + 1, 0.0);
             assert!((p - q).length() < 1e-5 && (v - w).length() < 1e-5);
-            // Linear within a piece: the bend at its ends from two inside.
+            // The bend is linear within a piece, so that two bends inside give those at its ends.
             let end = bend(i, 0.8) + (bend(i, 0.8) - bend(i, 0.6));
             let start = bend(i + 1, 0.2) - (bend(i + 1, 0.4) - bend(i + 1, 0.2));
             assert!((end - start).length() < 1e-3, "{end} {start}");

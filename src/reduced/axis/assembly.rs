@@ -69,6 +69,19 @@ impl Axis {
     /// function, column j is the `trial_order`-th of its own (thesis (6.9)).
     ///
     /// A mass matrix has orders 0, 0; a stiffness matrix 1, 1; a first derivative 0, 1.
+    ///
+    /// ```
+    /// use rapier3d_immersed::reduced::{Axis, Quadrature};
+    ///
+    /// // −u″ = 1 with u = 0 at both ends: u = x (1 − x)/2, exactly, at the nodes of linear elements.
+    /// let axis = Axis::elements(0.0, 1.0, 4, 1)?.with_zero_start().with_zero_end();
+    /// let stiffness = axis.matrix(Quadrature::Nodal, 1, 1, |_| 1.0);
+    /// let u = stiffness.lu().solve(&axis.load(Quadrature::Nodal, |_| 1.0)).unwrap();
+    /// for (x, u) in axis.nodes().iter().zip(&u) {
+    ///     assert!((u - 0.5 * x * (1.0 - x)).abs() < 1e-12);
+    /// }
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
     pub fn matrix(
         &self,
         rule: Quadrature,
@@ -119,7 +132,7 @@ impl Axis {
             });
         }
         let stages = self.mesh.degree;
-        // The polynomial through the stages alone (the start carries no rate), by its own axis.
+        // The polynomial goes through the stages alone, as the start carries no rate; it has its own axis.
         let gauss = Rule::gauss(stages);
         let nodes = &self.reference[1..];
         let lagrange = |j: usize, x: f64| -> f64 {

@@ -11,6 +11,18 @@ pub fn searched() -> impl Iterator<Item = (&'static Coefficient<PhysicalLaw>, [f
 }
 
 /// The places of a law's coefficients between their limits, 0 to 1, in the order of [`searched`].
+///
+/// ```
+/// use rapier3d_immersed::PhysicalLaw;
+/// use rapier3d_immersed::training::fidelity::{law_at, places, searched};
+///
+/// // A search works in the unit cube: here from the default law a tenth along the first coefficient.
+/// let mut at = places(&PhysicalLaw::default());
+/// at[0] = (at[0] + 0.1).min(1.0);
+/// let law = law_at(&at);
+/// let (first, [low, high]) = searched().next().unwrap();
+/// assert!((first.of(&law) - (low + (high - low) * at[0])).abs() < 1e-12);
+/// ```
 pub fn places(law: &PhysicalLaw) -> Vec<f64> {
     let place = |(row, [low, high]): (&Coefficient<PhysicalLaw>, [f64; 2])| {
         (row.of(law) - low) / (high - low)

@@ -3,8 +3,8 @@
 use super::report::{DiscMap, PaperResult, PlateResult, Report, ShareResult};
 use crate::motion::Regime;
 
-/// How far a report is from the measurements, by kind. Each is 0 if everything is right; an error at
-/// its bar costs a few hundredths, beyond it a multiple of how far beyond.
+/// How far a report is from the measurements, by kind. Each is 0 if everything is right; an error as large
+/// as its bar costs a few hundredths, a larger one a multiple of the excess.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -22,14 +22,14 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// The sum.
+    /// The sum of all kinds.
     pub fn total(&self) -> f64 {
         self.plates + self.discs + self.papers + self.shares
     }
 }
 
 impl Report {
-    /// How far from the measurements.
+    /// How far this report is from the measurements.
     pub fn cost(&self) -> Cost {
         Cost {
             plates: self.plates.iter().map(plate).sum(),
@@ -40,7 +40,7 @@ impl Report {
     }
 }
 
-/// The error in units of its bar, not more than 5: what is hopeless must not outweigh the rest.
+/// The error in units of its bar, not more than 5, so that one very bad case does not outweigh the rest.
 fn error(ours: f64, measured: f64, bar: f64) -> f64 {
     let error = (ours / measured - 1.0).abs() / bar;
     if error.is_finite() {
@@ -54,7 +54,7 @@ fn plate(result: &PlateResult) -> f64 {
     let tumbling = result.mean(|fall| fall.tumbling);
     let regime = match result.plate.regime {
         Regime::PeriodicTumbling => 4.0 * (1.0 - tumbling),
-        // In chaos each fall is a mixture, not only all of them together.
+        // In chaos each fall is a mixture by itself, not only all of them together.
         Regime::TransitionalChaotic => result.mean(|fall| {
             let share = fall.tumbling;
             (0.3 - share).max(0.0) / 0.3 + (share - 0.7).max(0.0) / 0.3
@@ -88,7 +88,7 @@ fn discs(map: &DiscMap) -> f64 {
             (1.0 - agreement[class]) * 0.5 + 2.0 * (0.75 - agreement[class]).max(0.0)
         })
         .sum();
-    // A miss far from its boundary is worse than one beside it.
+    // A disc that is wrong far from the boundary is worse than one beside it.
     let misses = map.falls.iter().filter(|fall| fall.regime != fall.expected);
     let far: f64 = misses.map(|fall| (fall.off_by / 0.4).min(1.5)).sum();
     classes + 3.0 * far / map.falls.len() as f64 + 3.0 * (0.88 - map.agreement()).max(0.0)

@@ -12,8 +12,8 @@ use crate::training::{Experiment, Release};
 use rapier3d::parry::shape::Cylinder;
 use std::f64::consts::PI;
 
-/// Discs of 2 cm in a liquid as dense as water. Of steel, unless they would then be thicker than
-/// this share of their diameter, and correspondingly denser otherwise; the map knows I* only.
+/// Discs of 2 cm in a liquid as dense as water. They are of steel, unless they would then be thicker than
+/// this share of their diameter, and correspondingly denser otherwise; the map has I* only.
 const DIAMETER: f64 = 0.02;
 const STEEL: f64 = 7.85;
 const MOST_THICKNESS: f64 = 0.08;
@@ -50,7 +50,7 @@ pub struct DiscFall {
     pub reynolds: f64,
     /// I*.
     pub i_star: f64,
-    /// Its motion; helix and spiral count as periodic flutter, as on the measured map.
+    /// The disc's motion; helix and spiral count as periodic flutter, as on the measured map.
     pub regime: Regime,
     /// The measured map's regime at the fall's own Reynolds number.
     pub expected: Regime,
@@ -59,8 +59,8 @@ pub struct DiscFall {
     pub off_by: f64,
 }
 
-/// The map's four classes: what goes back and forth, or round, is periodic.
-pub fn map_class(regime: Regime) -> Regime {
+/// The map's four classes: flutter, helix and spiral are periodic.
+pub(super) fn map_class(regime: Regime) -> Regime {
     match regime {
         Regime::TransitionalHelix | Regime::PeriodicSpiral => Regime::PeriodicFlutter,
         other => other,
@@ -71,7 +71,7 @@ impl Disc {
     /// Every disc of Field et al. (1997) that the public data of Howison et al. (2020) hold.
     ///
     /// # Errors
-    /// None for these numbers.
+    /// Those of [`Disc::new`], which the stored numbers do not give.
     pub fn measured() -> Result<Vec<Self>, Error> {
         let discs = MEASURED.iter();
         discs
@@ -86,15 +86,15 @@ impl Disc {
     pub fn new(reynolds: f64, i_star: f64, regime: Regime) -> Result<Self, Error> {
         Error::check_positive("reynolds", reynolds)?;
         Error::check_positive("i_star", i_star)?;
-        // I* = π (ρ_s/ρ_f) t/(64 d)
+        // This is I* = π (ρ_s/ρ_f) t/(64 d).
         let product = 64.0 * i_star / PI;
         let thickness = (product / STEEL).min(MOST_THICKNESS);
         let ratio = product / thickness;
         let t = thickness * DIAMETER;
         let shape = Cylinder::new(0.5 * t as f32, 0.5 * DIAMETER as f32);
         let density = ratio * f64::from(LIQUID);
-        // At high Reynolds numbers ½ρU²·1.17 = (ρ_s − ρ_f) g t; at lower ones the viscosity is what is
-        // wanted, so that U follows from the same balance with the drag at the given Re.
+        // At high Reynolds numbers ½ρU²·1.17 = (ρ_s − ρ_f) g t; at lower ones U follows from the same
+        // balance with the drag at the given Re, and the viscosity from U.
         let drag = (64.0 / (PI * reynolds) * (1.0 + 0.138 * reynolds.powf(0.792))).max(1.17);
         let numbers = DimensionlessNumbers::new(
             Outline::Round,
@@ -196,7 +196,7 @@ mod tests {
             .iter()
             .filter(|(re, i, regime)| expected(*re, *i) == *regime);
         let share = right.count() as f64 / MEASURED.len() as f64;
-        // 194 of 200: six lie on the wrong side of a curve.
+        // Six of 200 lie on the wrong side of a curve.
         assert!(share >= 0.97, "{share}");
     }
 

@@ -22,11 +22,12 @@ const AIR: (f32, f32) = (1.2754, 1.48e-5);
 /// A drop is taken as 1.1 m high. Means are over what lies between 0.7 m (ours) and 0.05 m above the floor
 /// (where the published analysis ends): depths below the release, m.
 const WINDOW: (f64, f64) = (0.40, 1.05);
-/// A robot dropped them. How evenly is not known to us: ours, deviations of tilt (rad) and spin (rad/s).
+/// A robot dropped them, how evenly is not known to us: these deviations of tilt (rad) and spin (rad/s) are
+/// ours.
 const SHAKE: (f64, f64) = (0.1, 0.3);
-/// A drop tumbles if it flips at least so often, and at least this share of its turns go on: ours, since one
-/// flip is no tumbling. The published analysis puts the tracks into two clusters, by how often the visible
-/// area peaks and how much the vertical speed varies.
+/// A drop tumbles if it flips at least so often, and at least this share of its turns go on. The numbers are
+/// ours, since one flip is no tumbling. The published analysis puts the tracks into two clusters, by how
+/// often the visible area peaks and how much the vertical speed varies.
 const TUMBLES: (u32, f64) = (2, 0.8);
 
 /// Outline of a piece of paper.
@@ -53,11 +54,11 @@ pub struct PaperDrop {
     pub edge_down: bool,
     /// Mean descent, m/s.
     pub descent: f64,
-    /// Its deviation among drops, m/s.
+    /// Standard deviation of the descent among drops, m/s.
     pub descent_deviation: f64,
     /// Mean horizontal speed from end to end, m/s.
     pub drift: f64,
-    /// Its deviation among drops, m/s.
+    /// Standard deviation of the drift among drops, m/s.
     pub drift_deviation: f64,
     paper: Paper,
 }
@@ -115,9 +116,9 @@ impl PaperDrop {
     /// The sets, with means and deviations that were computed from the tracks in the public repository.
     ///
     /// # Errors
-    /// None for these numbers.
+    /// [`Error::InvalidParameter`] for a size that cannot be, which the stored numbers do not give.
     pub fn measured() -> Result<Vec<Self>, Error> {
-        // Radius in mm, edge down, descent ± deviation, drift ± deviation, m/s.
+        // Each row: radius in mm, whether edge down, descent ± deviation, drift ± deviation, m/s.
         const CIRCLES: [(f64, bool, [f64; 4]); 8] = [
             (17.0, true, [0.722, 0.047, 0.481, 0.101]),
             (22.2, true, [0.700, 0.068, 0.431, 0.136]),
@@ -163,7 +164,7 @@ impl TumblingShare {
     /// Five classes of size, with shares that were counted from the labels in the public repository.
     ///
     /// # Errors
-    /// None for these numbers.
+    /// Those of [`TumblingShare::new`], which the stored numbers do not give.
     pub fn measured() -> Result<Vec<Self>, Error> {
         const SHARES: [(f64, f64); 5] = [
             (0.079, 0.92),
@@ -186,7 +187,7 @@ impl TumblingShare {
     pub fn new(i_star: f64, share: f64) -> Result<Self, Error> {
         Error::check_positive("i_star", i_star)?;
         Error::check_range("share", share, 0.0, 1.0)?;
-        // I* = π σ/(64 ρ_f d)
+        // This is I* = π σ/(64 ρ_f d).
         let radius = PI * GRAMMAGE / (128.0 * f64::from(AIR.0) * i_star);
         Ok(Self {
             i_star,

@@ -48,7 +48,7 @@ pub struct Plate {
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct PlateFall {
-    /// Share of flips among flips and reversals: 1 tumbling, 0 flutter.
+    /// Share of flips among flips and reversals: 1 is tumbling, 0 flutter.
     pub tumbling: f64,
     /// Horizontal speed from end to end, m/s.
     pub drift: f64,
@@ -60,10 +60,10 @@ pub struct PlateFall {
 
 impl Plate {
     /// The plates of the paper: β = 1/8 tumbles, 1/10 is apparently chaotic, 1/14 flutters; and two on either
-    /// side of 1/10, whose regime is not from the paper: a law is expected to send them into chaos too.
+    /// side of 1/10, whose regime is not from the paper: a law is expected to make them chaotic too.
     ///
     /// # Errors
-    /// None for these numbers.
+    /// Those of [`Plate::new`], which the stored numbers do not give.
     pub fn targets() -> Result<Vec<Self>, Error> {
         use Regime::{PeriodicFlutter, PeriodicTumbling, TransitionalChaotic};
         Ok(vec![
@@ -83,7 +83,7 @@ impl Plate {
                 ..Self::new(1.0 / 11.0, TransitionalChaotic)?
             },
             Self {
-                // Not a printed speed: it follows from Re = 1147 on the chord.
+                // The speed is not printed, but follows from Re = 1147 on the chord.
                 descent: Some(0.090),
                 ..Self::new(1.0 / 14.0, PeriodicFlutter)?
             },

@@ -31,14 +31,14 @@ pub struct Report {
 pub struct PlateResult {
     /// What was measured.
     pub plate: Plate,
-    /// What it did from each release angle.
+    /// The fall from each release angle.
     pub falls: Vec<PlateFall>,
 }
 
 /// All discs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DiscMap {
-    /// What they did: all releases of the first, all of the second, …
+    /// The falls: all releases of the first disc, then all of the second, and so on.
     pub falls: Vec<DiscFall>,
 }
 
@@ -47,7 +47,7 @@ pub struct DiscMap {
 pub struct PaperResult {
     /// What was measured.
     pub drop: PaperDrop,
-    /// What it did in each drop that reached the floor.
+    /// Every drop that reached the floor.
     pub falls: Vec<PaperFall>,
 }
 
@@ -133,7 +133,7 @@ impl DiscMap {
         })
     }
 
-    /// The same by class: steady, periodic, chaotic, tumbling; NaN where nothing was expected.
+    /// The agreement by class: steady, periodic, chaotic, tumbling; NaN where nothing was expected.
     pub fn agreement_by_class(&self) -> [f64; 4] {
         let counts = self.counts();
         std::array::from_fn(|class| {

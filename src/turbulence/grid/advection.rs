@@ -6,14 +6,14 @@ use rayon::prelude::*;
 /// How a quantity is carried along.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Advection {
-    /// Look up where the fluid came from (Stam 1999; thesis). Stable for any step, first order, and as dissipative
-    /// as a viscosity of about h²/(8 dt).
+    /// Looks up where the fluid came from (Stam 1999; thesis). It is stable for any step, of first order, and
+    /// as dissipative as a viscosity of about h²/(8 dt).
     SemiLagrangian,
-    /// Semi-Lagrangian there and back, half of the error subtracted (Selle et al. 2008), limited to
-    /// the values it came from. Second order. The default.
+    /// Goes there and back by the semi-Lagrangian way and subtracts half of the error (Selle et al. 2008),
+    /// limited to the values it came from. It is of second order, and the default.
     #[default]
     MacCormack,
-    /// Back and forth error compensation (Dupont & Liu 2003; Kim et al. 2005), limited likewise.
+    /// Compensates the error of going back and forth (Dupont & Liu 2003; Kim et al. 2005), limited likewise.
     Bfecc,
 }
 
@@ -83,7 +83,7 @@ pub(crate) fn advect(
         let back = once.sample(nodes(trace(grid, at(index), -dt)));
         0.5 * (quantity.get(index) - back)
     };
-    // The limiter: nothing outside the range of the values that the node came from.
+    // The limiter allows nothing outside the range of the values that the node came from.
     let limited = |index: [usize; 3], value: f64| {
         let (low, high) = quantity.range(origins[number(index)]);
         value.clamp(low, high)
@@ -105,7 +105,7 @@ pub(crate) fn advect(
     store(quantity, &values)
 }
 
-/// The three components after `dt`, boundaries not yet applied.
+/// The three components after `dt`, without the boundary conditions.
 pub(crate) fn advect_velocity(grid: &MacGrid, dt: f64) -> [Array3; 3] {
     core::array::from_fn(|c| {
         if grid.cells[c] == 1 {

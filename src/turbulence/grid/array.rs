@@ -75,7 +75,7 @@ impl Array3 {
     pub fn sample(&self, x: [f64; 3]) -> f64 {
         let (corner, w) = self.cell(x);
         let mix = |a: f64, b: f64, w: f64| a + (b - a) * w;
-        // Every kind of grid with a loop of its own: this is where the solver spends its time.
+        // Every kind of grid has a loop of its own, because the solver spends its time here.
         let [_, row, plane] = self.stride;
         let line = |at: usize| {
             let pair = &self.data[at..at + 2];
@@ -120,7 +120,8 @@ impl Array3 {
         (low, high)
     }
 
-    /// Sets the ghosts on one side of `axis` from the node `from` of the same line: ghost = `offset` + `factor`·node.
+    /// Sets the ghosts on one side of `axis` from the node `from` of the same line: ghost = `offset` +
+    /// `factor`·node.
     pub fn fill_ghosts(
         &mut self,
         axis: usize,
@@ -132,7 +133,7 @@ impl Array3 {
         let ghost = if upper { self.dims[axis] + 1 } else { 0 };
         let source = from + 1;
         let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-        // Edges and corners too, so that interpolation next to them has something sane.
+        // Edges and corners are filled too, so that interpolation next to them is sane.
         let full = |i: usize| self.dims[i] + 2 * self.pad[i];
         for m in 0..full(a) {
             for n in 0..full(b) {
@@ -165,7 +166,7 @@ mod tests {
             assert!((array.sample(x) - value(x)).abs() < 1.0e-12);
             let (low, high) = array.range(x);
             assert!(low < array.sample(x) && array.sample(x) < high);
-            // Far outside it stays in memory that it owns.
+            // Far outside it stays within the memory that it owns.
             assert!(array.sample([1.0e9, -1.0e9, 1.0e9]).is_finite());
         }
     }

@@ -9,13 +9,13 @@ use std::sync::Arc;
 /// One end of one axis.
 #[derive(Clone, Default)]
 pub enum Boundary {
-    /// Joined to the other end. The default.
+    /// The end is joined to the other one. This is the default.
     #[default]
     Periodic,
     /// Solid wall with no slip that moves in its own plane with this velocity, m/s (the component
     /// through the wall is ignored).
     Wall([f64; 3]),
-    /// No flow through, no friction: also a plane of symmetry.
+    /// A wall without friction, or a plane of symmetry: nothing flows through it.
     FreeSlip,
     /// Fluid enters with the velocity of this flow, in the box's axes and the grid's time. A shear or a
     /// gusty wind here is what can keep turbulence alive without a body.
@@ -132,7 +132,7 @@ impl Sides {
         }
     }
 
-    /// Sets the faces through which flow is prescribed.
+    /// Sets the velocities of the faces on which they are prescribed.
     pub fn set_faces(&self, c: usize, faces: &mut Array3, h: f64, time: f64) {
         if !self.active[c] {
             return;

@@ -3,6 +3,10 @@
 //! Velocity components live on the faces of cubic cells (Harlow & Welch 1965), pressure in their
 //! centers. A step is advection along the flow (semi-Lagrangian, Stam 1999; or its second-order
 //! corrections), viscous diffusion, and a projection onto fields without divergence.
+//!
+//! [`MacGrid::new`] takes [`MacGridParams`]; then give it a velocity ([`MacGrid::set_velocity`]), an obstacle
+//! ([`MacGrid::set_obstacle`]) or an inflow ([`Boundary::Inflow`]), call [`MacGrid::step`], and take the flow
+//! out with [`MacGrid::to_grid_flow`].
 
 mod advection;
 mod array;
@@ -24,7 +28,7 @@ pub(super) use separable::{End, Separable};
 use crate::error::Error;
 use projection::Projection;
 
-/// What [`MacGrid::new`] needs to know.
+/// The parameters of [`MacGrid::new`].
 #[derive(Clone)]
 pub struct MacGridParams {
     /// Cells along x, y and z. One cell makes the flow uniform along that axis: 64 × 64 × 1 is a
@@ -68,7 +72,34 @@ pub struct StepReport {
     pub courant: f64,
 }
 
-/// The flow.
+/// An incompressible flow on a grid.
+///
+/// ```
+/// use rapier3d_immersed::flow::Flow;
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use rapier3d_immersed::turbulence::grid::{MacGrid, MacGridParams};
+/// use std::f64::consts::TAU;
+///
+/// // Taylor–Green vortices in a periodic square of 1 m decay with exp(−2ν(2π)²t).
+/// let params = MacGridParams {
+///     cells: [32, 32, 1],
+///     viscosity: 0.05,
+///     ..MacGridParams::default()
+/// };
+/// let mut grid = MacGrid::new(&params)?;
+/// let (sin, cos) = (|x: f64| (TAU * x).sin(), |x: f64| (TAU * x).cos());
+/// grid.set_velocity(|[x, y, _]| [sin(x) * cos(y), -cos(x) * sin(y), 0.0])?;
+/// for _ in 0..20 {
+///     let report = grid.step(0.01)?;
+///     assert!(report.divergence < 1e-10);
+/// }
+/// let decay = (-2.0 * 0.05 * TAU * TAU * 0.2).exp();
+/// assert!((grid.velocity([0.25, 0.0, 0.0])[0] / decay - 1.0).abs() < 0.05);
+/// // Bodies can be immersed in the flow as it is now.
+/// let flow = grid.to_grid_flow(Vector::ZERO)?;
+/// assert!((f64::from(flow.velocity(Vector::X * 0.25, 0.0).x) / decay - 1.0).abs() < 0.06);
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
 pub struct MacGrid {
     pub(crate) cells: [usize; 3],
     pub(crate) h: f64,
@@ -89,8 +120,8 @@ impl MacGrid {
     /// Fluid at rest in a box with a corner at the origin.
     ///
     /// # Errors
-    /// If a dimension is not 1 to 512 (periodic axes: 1 or at least 3), a size not positive, the viscosity negative,
-    /// an axis periodic at one end only, or an inactive axis not periodic or free-slip.
+    /// If a dimension is not 1 to 512 (periodic axes: 1 or at least 3), a size not positive, the viscosity
+    /// negative, an axis periodic at one end only, or an inactive axis not periodic or free-slip.
     pub fn new(params: &MacGridParams) -> Result<Self, Error> {
         for n in params.cells {
             Error::check(
@@ -303,7 +334,7 @@ impl MacGrid {
             .collect()
     }
 
-    /// Boundary faces, solid faces, ghosts.
+    /// Sets boundary faces, solid faces and ghosts.
     fn apply_boundaries(&mut self) {
         for c in 0..3 {
             self.sides

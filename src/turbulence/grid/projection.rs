@@ -2,8 +2,8 @@
 
 use super::{MacGrid, Separable, Sides};
 
-/// Pressure solver: direct in an empty box, conjugate gradients preconditioned by the empty box's
-/// direct solver around an obstacle.
+/// The pressure solver: direct in an empty box; around an obstacle, conjugate gradients that are
+/// preconditioned by the empty box's direct solver.
 pub(super) struct Projection {
     cells: [usize; 3],
     h: f64,
@@ -62,7 +62,7 @@ impl Projection {
                             neighbors[cell][2 * axis + upper] = Some(neighbor as u32);
                             diagonal[cell] += 1.0;
                         }
-                        // Zero pressure half a cell outside.
+                        // The pressure is zero half a cell outside.
                         None if sides.is_open(axis, upper) => diagonal[cell] += 2.0,
                         _ => {}
                     }
@@ -79,8 +79,8 @@ impl Projection {
     /// of iterations and whether they sufficed.
     pub fn solve(&self, divergence: &mut Vec<f64>, solid: &[bool]) -> (usize, bool) {
         if !self.grounded {
-            // Nowhere to go: only the mean-free part can be removed. It is all of it
-            // unless the prescribed inflow does not balance.
+            // Fluid cannot leave the box, so that only the part without mean can be removed. That is all of
+            // it unless the prescribed inflow does not balance.
             let fluid = solid.iter().filter(|solid| !**solid).count() as f64;
             let mean = divergence.iter().sum::<f64>() / fluid;
             for (d, solid) in divergence.iter_mut().zip(solid) {

@@ -100,13 +100,13 @@ impl Separable {
         self.transform(f, &mut spare, false);
     }
 
-    /// Into (`forward`) or out of the basis of eigenvectors along every axis.
+    /// Takes `f` into (`forward`) or out of the basis of eigenvectors along every axis.
     fn transform(&self, f: &mut Vec<f64>, spare: &mut Vec<f64>, forward: bool) {
         let [nx, ny, nz] = self.dims;
         if let Some(axis) = &self.axes[0] {
             let from = DMatrixView::from_slice(f, nx, ny * nz);
             let mut to = DMatrixViewMut::from_slice(spare, nx, ny * nz);
-            // Not gemm_tr, which does not use the fast product.
+            // gemm_tr would not use the fast product.
             let left = if forward {
                 &axis.transposed
             } else {
@@ -115,7 +115,7 @@ impl Separable {
             to.gemm(1.0, left, &from, 0.0);
             core::mem::swap(f, spare);
         }
-        // From the right: F V forward, F Vᵀ backward.
+        // The product from the right is F V forward and F Vᵀ backward.
         let mut right = |axis: &Axis, rows: usize, columns: usize| {
             let right = if forward {
                 &axis.vectors
@@ -143,7 +143,7 @@ impl Separable {
 mod tests {
     use super::*;
 
-    /// The residual by plain second differences, for every kind of end.
+    /// The residual, by plain second differences, is at rounding level for every kind of end.
     #[test]
     fn residual_is_at_rounding_level() {
         let kinds = [

@@ -5,12 +5,12 @@ use super::{MacGrid, Separable, Sides};
 /// How velocity diffuses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Viscosity {
-    /// Forward Euler: cheap, stable only for ν dt Σ 1/h² ≤ ½.
+    /// Forward Euler, which is cheap, but stable only for ν dt Σ 1/h² ≤ ½.
     Explicit,
-    /// Backward Euler: stable for any step, first order in time. The default.
+    /// Backward Euler, which is stable for any step and of first order in time. This is the default.
     #[default]
     Implicit,
-    /// The trapezoidal rule: stable, second order in time.
+    /// The trapezoidal rule, which is stable and of second order in time.
     CrankNicolson,
 }
 
@@ -39,9 +39,9 @@ pub(super) fn solvers(
 
 /// Diffuses for `dt`. Boundaries and ghosts must have been applied.
 ///
-/// Solved for the change of the velocity, which is zero where the velocity is prescribed: so the
-/// boundary values enter through the ghosts alone. Inside an obstacle the velocity is kept at zero
-/// by the caller, to first order in dt.
+/// The unknown is the change of the velocity, which is zero where the velocity is prescribed, so that the
+/// boundary values enter through the ghosts alone. Inside an obstacle the caller keeps the velocity at
+/// zero, to first order in dt.
 pub(super) fn diffuse(grid: &mut MacGrid, dt: f64) {
     let amount = grid.viscosity * dt;
     for c in 0..3 {
@@ -85,8 +85,8 @@ pub(super) fn diffuse(grid: &mut MacGrid, dt: f64) {
 
 /// Diffuses explicitly for `dt` with an eddy viscosity per cell (m²/s), as ∇·(ν_T ∇u).
 ///
-/// Cut off at a diffusion number of .15 per axis, where explicit diffusion is stable in three
-/// dimensions: an eddy viscosity beyond it mixes a cell with its neighbors within a few steps anyway.
+/// The eddy viscosity is cut off at a diffusion number of .15 per axis, where explicit diffusion is stable in
+/// three dimensions: beyond it a cell is mixed with its neighbors within a few steps anyway.
 pub(super) fn diffuse_eddies(grid: &mut MacGrid, eddy: &[f64], dt: f64) {
     let scale = dt / (grid.h * grid.h);
     let number = |cell: [usize; 3]| (scale * eddy[grid.cell_number(cell)]).min(0.15);
@@ -96,7 +96,7 @@ pub(super) fn diffuse_eddies(grid: &mut MacGrid, eddy: &[f64], dt: f64) {
             let (first, dims) = unknowns(c, grid.cells, &grid.sides);
             let faces = &grid.faces[c];
             let n = grid.cells[c];
-            // Means of the two cells beside a face; ends count their one cell twice.
+            // Diffusion numbers of the two cells beside a face; an end counts its one cell twice.
             let beside = |index: [usize; 3]| {
                 let (mut low, mut high) = (index, index);
                 let periodic = grid.sides.is_periodic(c);
