@@ -329,6 +329,18 @@ impl Error {
         }
     }
 
+    /// An error that names the first entry whose size is beyond `limit`, or that is NaN.
+    pub(crate) fn check_all_within(
+        what: &'static str,
+        values: &[f64],
+        limit: f64,
+    ) -> Result<(), Self> {
+        for value in values {
+            Self::check_range(what, *value, -limit, limit)?;
+        }
+        Ok(())
+    }
+
     /// An error that names the first entry that is not finite.
     pub(crate) fn check_all_finite(what: &'static str, values: &[f64]) -> Result<(), Self> {
         match values.iter().position(|value| !value.is_finite()) {

@@ -17,11 +17,29 @@ use rapier3d::math::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Unchecked")
 )]
 pub struct Fluid {
     density: Real,
     kinematic_viscosity: Real,
+}
+
+/// A fluid as it stands in a file.
+#[cfg(feature = "serde-serialize")]
+#[derive(serde::Deserialize)]
+struct Unchecked {
+    density: Real,
+    kinematic_viscosity: Real,
+}
+
+#[cfg(feature = "serde-serialize")]
+impl TryFrom<Unchecked> for Fluid {
+    type Error = Error;
+
+    fn try_from(file: Unchecked) -> Result<Self, Error> {
+        Self::new(file.density, file.kinematic_viscosity)
+    }
 }
 
 impl Fluid {

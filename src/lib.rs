@@ -79,6 +79,7 @@ pub mod flow;
 mod fluid;
 pub mod geometry;
 mod hydro;
+mod interning;
 mod math;
 pub mod motion;
 pub mod playback;

@@ -1,7 +1,7 @@
 //! Control of single bodies: factors on the law's forces, set by hand or replayed from a series.
 
-use super::interning::Interned;
 use crate::hydro::viscous::ForceFactors;
+use crate::interning::Interned;
 use crate::motion::ControlSeries;
 
 /// What a contact does to a series that is being replayed.

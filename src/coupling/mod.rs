@@ -14,7 +14,6 @@ mod body_state;
 mod control;
 mod environment;
 mod immersion;
-mod interning;
 mod rapier_sets;
 mod readout;
 mod registry;

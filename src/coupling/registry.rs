@@ -2,10 +2,10 @@
 
 use super::body_state::{BodyState, FlightState, NONE, Warned};
 use super::control::BodyControl;
-use super::interning::Interned;
 use crate::body::ImmersedBody;
 #[cfg(feature = "serde-serialize")]
 use crate::error::Error;
+use crate::interning::Interned;
 use rapier3d::dynamics::RigidBodyHandle;
 
 /// Sleeping and stale bodies are looked at once in this many steps.

@@ -1,12 +1,12 @@
 //! What equal bodies in the same fluid share at run time.
 
-use super::interning::{Content, Interned};
 use crate::body::from_rapier::inertia;
 use crate::body::{DryMass, ImmersedBody};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
 use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::viscous::{LawKind, PreparedLaw};
+use crate::interning::{Content, Interned};
 use crate::math::spatial::{Twist, skew, transform};
 use crate::math::{Lanes, Scalar, scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
 use fearless_simd::Simd;

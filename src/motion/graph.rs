@@ -21,12 +21,35 @@ use rand::{Rng, RngExt};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Unchecked")
 )]
 pub struct MotionGraph {
     start: Vec<f64>,
     /// Probabilities of what follows, one row per state.
     transitions: Vec<Vec<f64>>,
+}
+
+/// A graph as it stands in a file.
+#[cfg(feature = "serde-serialize")]
+#[derive(serde::Deserialize)]
+struct Unchecked {
+    start: Vec<f64>,
+    transitions: Vec<Vec<f64>>,
+}
+
+#[cfg(feature = "serde-serialize")]
+impl TryFrom<Unchecked> for MotionGraph {
+    type Error = Error;
+
+    fn try_from(file: Unchecked) -> Result<Self, Error> {
+        let graph = Self {
+            start: file.start,
+            transitions: file.transitions,
+        };
+        // Rows that are right already would change by rounding if they were normalised again.
+        graph.check().map(|()| graph)
+    }
 }
 
 /// How far a row's sum may be from 1: the thesis prints three digits.

@@ -1,7 +1,7 @@
 //! Suspensions (thesis § 7.3: snow, dust, confetti): bodies that enter a scene all the time, some of them
 //! played, the others moved by forces.
 
-use super::player::{AtContact, Drive, MotionPlayer};
+use super::player::{AtContact, Drive, FARTHEST, MotionPlayer};
 use super::players::MotionPlayers;
 use crate::body::ImmersedBody;
 use crate::coupling::Immersion;
@@ -121,7 +121,8 @@ impl Emitter {
         paths: Vec<Arc<MotionPath>>,
     ) -> Result<Self, Error> {
         for corner in params.corners {
-            Error::check_all_finite("corners", &corner.to_array().map(f64::from))?;
+            let corner = corner.to_array().map(f64::from);
+            Error::check_all_within("corners", &corner, FARTHEST)?;
         }
         Error::check_not_negative("rate", params.rate.into())?;
         Error::check_range("most", params.most as f64, 1.0, 1e7)?;
@@ -141,6 +142,8 @@ impl Emitter {
                 actual: 0,
             });
         }
+        immersed.hydro.check()?;
+        immersed.law.check()?;
         let axes = crate::math::to_rotation(immersed.hydro.planform.axes.into());
         Ok(Self {
             random: Pcg64Mcg::seed_from_u64(params.seed),

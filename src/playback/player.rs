@@ -5,6 +5,10 @@ use crate::motion::path::MotionPath;
 use rapier3d::math::{Pose, Real, Rotation, Vector};
 use std::sync::Arc;
 
+/// Farthest place and fastest velocity that is accepted, m and m/s: beyond, single precision moves nothing
+/// any more, and sums overflow.
+pub(super) const FARTHEST: f64 = 1e9;
+
 /// How a body is made to follow its path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
@@ -121,7 +125,8 @@ impl MotionPlayer {
     /// [`Error::NotFinite`] or [`Error::InvalidParameter`] names a value that is not finite, negative,
     /// or no rotation.
     pub fn check(&self) -> Result<(), Error> {
-        Error::check_all_finite("origin", &self.origin.to_array().map(f64::from))?;
+        let origin = self.origin.to_array().map(f64::from);
+        Error::check_all_within("origin", &origin, FARTHEST)?;
         Error::check_finite("heading", self.heading.into())?;
         let norm = f64::from(self.axes.length());
         Error::check("norm of the axes", norm, (norm - 1.0).abs() < 1e-3, "1")?;

@@ -1,7 +1,7 @@
 //! Snapshots of players and emitters: how they are written, and which are refused when they are read.
 
 use super::emitter::{Emitter, EmitterParams};
-use super::player::{AtContact, Drive};
+use super::player::{AtContact, Drive, FARTHEST};
 use super::player_state::{Deflection, PlayerState};
 use super::players::MotionPlayers;
 use crate::body::ImmersedBody;
@@ -30,7 +30,7 @@ fn check_version(file: &'static str, found: u32) -> Result<(), Error> {
 }
 
 fn check_vector(what: &'static str, vector: Vector) -> Result<(), Error> {
-    Error::check_all_finite(what, &vector.to_array().map(f64::from))
+    Error::check_all_within(what, &vector.to_array().map(f64::from), FARTHEST)
 }
 
 fn check_rotation(what: &'static str, rotation: Rotation) -> Result<(), Error> {
@@ -242,16 +242,16 @@ impl TryFrom<EmitterSnapshot<MotionPath>> for Emitter {
         for (born, _) in &snapshot.alive {
             last = Error::check_range("time of an emission", *born, last, time)?;
         }
-        snapshot.immersed.law.check()?;
-        let hydro = &snapshot.immersed.hydro;
-        Error::check_positive("displaced volume", hydro.volume)?;
-        Error::check_all_finite("centroid", hydro.centroid.as_slice())?;
-        Error::check_all_finite("reference", hydro.reference.as_slice())?;
-        if !hydro.added_mass.is_physical() {
-            return Err(Error::UnphysicalAddedMass);
-        }
-        for vector in [snapshot.body.linvel(), snapshot.body.angvel()] {
-            check_vector("velocity of an emitted body", vector)?;
+        let body = &snapshot.body;
+        let place = body.translation();
+        for vector in [
+            place,
+            body.linvel(),
+            body.angvel(),
+            body.user_force(),
+            body.user_torque(),
+        ] {
+            check_vector("state of an emitted body", vector)?;
         }
         let colliders = snapshot.body.colliders().len();
         Error::check_length("colliders of an emitter's body", 0, colliders)?;

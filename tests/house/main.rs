@@ -18,11 +18,12 @@ const LAYERS: &[&[&str]] = &[
     &["body"],
     &["dynamics"],
     &["motion"],
+    &["interning"],
     &["coupling"],
     &["playback", "training"],
 ];
 
-/// Lines, unit tests included, that the bridge to rapier may have.
+/// Lines of code, unit tests aside, that the bridge to rapier may have.
 const MOST_LINES_OF_COUPLING: usize = 4000;
 
 fn house() -> House {
@@ -70,6 +71,7 @@ fn no_import_runs_up() {
 #[test]
 fn the_bridge_stays_small() {
     let lines = house().lines["coupling"];
+    println!("coupling has {lines} lines of code");
     assert!(lines <= MOST_LINES_OF_COUPLING, "{lines}");
 }
 

@@ -1,6 +1,8 @@
 //! A cache of solved shapes: a thousand equal leaves cost one solve.
 
-use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn};
+use super::params::{
+    BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn,
+};
 use crate::error::Error;
 use crate::geometry::Surface;
 use crate::hydro::AddedMass;

@@ -1,7 +1,7 @@
 //! Properties of a shape with its own added mass instead of the proxy's.
 
+use super::params::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution};
 use super::shape::cells;
-use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution};
 use crate::error::Error;
 use crate::geometry::Surface;
 use crate::hydro::{AddedMass, HydroProperties};

@@ -1,11 +1,11 @@
 //! Refinement of the mesh until the tolerance is met.
 
 use super::pair::NearField;
-use super::solve::{Problem, Solution};
-use super::{
+use super::params::{
     BoundaryElementParams, BoundaryElementProgress, BoundaryElementReport, BoundaryElementSolution,
     ProgressFn,
 };
+use super::solve::{Problem, Solution};
 use crate::error::Error;
 use crate::geometry::{Sheet, Surface, bisect, quality};
 use crate::hydro::AddedMass;

@@ -1,6 +1,8 @@
 //! The added mass of rapier's shapes, meshed as finely as an accuracy asks for.
 
-use super::{BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn};
+use super::params::{
+    BoundaryElementParams, BoundaryElementReport, BoundaryElementSolution, ProgressFn,
+};
 use crate::error::Error;
 use crate::geometry::{Ellipsoid, Surface};
 use crate::hydro::AddedMass;

@@ -1,21 +1,9 @@
 //! Transport along the flow.
 
-use super::{Array3, MacGrid};
+use super::array::Array3;
+use super::mac_grid::MacGrid;
+use super::params::Advection;
 use rayon::prelude::*;
-
-/// How a quantity is carried along.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Advection {
-    /// Looks up where the fluid came from (Stam 1999; thesis). It is stable for any step, of first order, and
-    /// as dissipative as a viscosity of about h²/(8 dt).
-    SemiLagrangian,
-    /// Goes there and back by the semi-Lagrangian way and subtracts half of the error (Selle et al. 2008),
-    /// limited to the values it came from. It is of second order, and the default.
-    #[default]
-    MacCormack,
-    /// Compensates the error of going back and forth (Dupont & Liu 2003; Kim et al. 2005), limited likewise.
-    Bfecc,
-}
 
 /// Where a node sits inside its cell, in cells from the corner.
 type Offset = [f64; 3];

@@ -1,6 +1,7 @@
 //! What is at the ends of the box.
 
-use super::{Array3, End};
+use super::array::Array3;
+use super::separable::End;
 use crate::error::Error;
 use crate::flow::Flow;
 use rapier3d::math::{Real, Vector};

@@ -1,6 +1,7 @@
 //! The pressure that removes divergence.
 
-use super::{MacGrid, Separable, Sides};
+use super::boundary::Sides;
+use super::separable::Separable;
 
 /// The pressure solver: direct in an empty box; around an obstacle, conjugate gradients that are
 /// preconditioned by the empty box's direct solver.
@@ -157,50 +158,5 @@ impl Obstacle {
                 .sum();
             *image = (self.diagonal[cell] * x[cell] - sum) * scale;
         }
-    }
-}
-
-/// Subtracts the gradient of `pressure` from the faces between fluid cells and at open ends.
-pub(super) fn subtract_gradient(grid: &mut MacGrid, pressure: &[f64]) {
-    for c in (0..3).filter(|c| grid.cells[*c] > 1) {
-        let n = grid.cells[c];
-        let (first, count) = grid.sides.unknown_faces(c, n);
-        let mut faces =
-            core::mem::replace(&mut grid.faces[c], super::Array3::new([1; 3], [false; 3]));
-        for index in faces.indices() {
-            let face = index[c];
-            if face < first || face >= first + count {
-                continue;
-            }
-            let cell = |i: usize| {
-                let mut cell = index;
-                cell[c] = i;
-                grid.cell_number(cell)
-            };
-            let (low, high) = if grid.sides.is_periodic(c) {
-                (Some(cell((face + n - 1) % n)), Some(cell(face % n)))
-            } else {
-                (
-                    (face > 0).then(|| cell(face - 1)),
-                    (face < n).then(|| cell(face)),
-                )
-            };
-            let solid = [low, high]
-                .into_iter()
-                .flatten()
-                .any(|cell| grid.solid()[cell]);
-            if solid {
-                continue;
-            }
-            let slope = match (low, high) {
-                (Some(low), Some(high)) => pressure[high] - pressure[low],
-                (Some(low), None) => -2.0 * pressure[low],
-                (None, Some(high)) => 2.0 * pressure[high],
-                (None, None) => 0.0,
-            };
-            let at = faces.position(index);
-            faces.data[at] -= slope / grid.h;
-        }
-        grid.faces[c] = faces;
     }
 }

@@ -1,6 +1,7 @@
 //! What can be asked of the flow.
 
-use super::{Array3, MacGrid};
+use super::array::Array3;
+use super::mac_grid::MacGrid;
 use crate::error::Error;
 use crate::flow::GridFlow;
 use rapier3d::math::{Real, Vector};

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hasher};
 
 /// What [`Interned`] can find.
-pub(super) trait Content {
+pub(crate) trait Content {
     /// Feeds enough of the content to tell different values apart in all but rare cases.
     fn hash_content(&self, hasher: &mut DefaultHasher);
 
@@ -23,7 +23,7 @@ pub(super) trait Content {
 
 /// Where values are, by their hashes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct HashIndex {
+pub(crate) struct HashIndex {
     places: HashMap<u64, Vec<u32>>,
 }
 
@@ -56,7 +56,7 @@ impl HashIndex {
         )
     )
 )]
-pub(super) struct Interned<T> {
+pub(crate) struct Interned<T> {
     /// `None` where there is room for one.
     values: Vec<Option<T>>,
     free: Vec<u32>,
@@ -178,7 +178,7 @@ impl<T> From<Interned<T>> for Vec<Option<T>> {
 }
 
 /// Feeds numbers by their bits.
-pub(super) fn hash_numbers<'a>(
+pub(crate) fn hash_numbers<'a>(
     hasher: &mut DefaultHasher,
     numbers: impl IntoIterator<Item = &'a f64>,
 ) {
