@@ -339,7 +339,7 @@ mod tests {
             assert_eq!(graph.draw_start(&mut random), 0);
             assert!((0..100).all(|_| graph.draw_next(0, &mut random) == 0));
         }
-        // A state that only led to impossible ones is kept, for ever.
+        // A state that only led to impossible ones becomes absorbing.
         let last = graph.restricted(&[true, true, true, false]).unwrap();
         assert_eq!(last.probability(3, 3), 1.0);
         assert!(graph.restricted(&[false; 4]).is_err());

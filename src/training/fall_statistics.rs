@@ -62,7 +62,7 @@ const FLIPPED: f64 = 0.173_648;
 const STEADY: f64 = 0.01;
 
 impl FallStatistics {
-    /// Statistics of the second half of a fall. Zeros for fewer than two moments in that half.
+    /// Statistics of the second half of a fall. They are zero if that half has fewer than two moments.
     pub fn of(fall: &Trajectory) -> Self {
         let Some(last) = fall.moments.len().checked_sub(1) else {
             return Self::default();

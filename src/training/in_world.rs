@@ -61,7 +61,7 @@ impl BodyState {
         }
     }
 
-    /// The same as a moment of a trajectory, for a body of this shape.
+    /// This state as a moment of a trajectory, for a body of this shape.
     pub fn moment(&self, hydro: &HydroProperties) -> Moment {
         let attitude =
             self.orientation * UnitQuaternion::from_rotation_matrix(&hydro.planform.axes);
@@ -89,8 +89,8 @@ impl BodyState {
     }
 }
 
-/// One immersed body that falls in a rapier world, with nothing else in it: what measurements,
-/// comparisons and small studies run on. It never sleeps.
+/// One immersed body that falls in a rapier world, with nothing else in it, for measurements,
+/// comparisons and small studies. It never sleeps.
 ///
 /// World, immersion and handle are open: set a flow, turbulence or another integrator, add obstacles,
 /// or step them by hand.

@@ -29,13 +29,15 @@ pub struct Entry {
 /// `bake`) makes others.
 ///
 /// ```
+/// use rand::SeedableRng;
+/// use rand_pcg::Pcg64Mcg;
 /// use rapier3d_immersed::motion::path::TrajectoryDatabase;
 /// use rapier3d_immersed::rapier3d::na::Vector2;
 ///
 /// // The segment that comes nearest to a glide of two chords to the right and one down.
 /// let database = TrajectoryDatabase::shipped();
 /// let wanted = Vector2::new(2.0, -1.0);
-/// let found = database.find(wanted, 0.0, &mut rand::rng());
+/// let found = database.find(wanted, 0.0, &mut Pcg64Mcg::seed_from_u64(1));
 /// assert!((found.segment.feature() - wanted).norm() < 0.5);
 /// assert_eq!(found.class, database.class_of(wanted));
 /// ```
