@@ -42,6 +42,11 @@
 //! The solve is direct. Even at 9680 panels the factorisation is an eighth of the work and the rest
 //! is integration, so that an iterative solver would gain next to nothing; going further needs a
 //! compressed matrix, and by then the error of the added mass is far below that of the shape.
+//!
+//! [`AddedMass::of_shape`]: super::AddedMass::of_shape
+//! [`AddedMass::solve`]: super::AddedMass::solve
+//! [`AddedMass::solve_sheet`]: super::AddedMass::solve_sheet
+//! [`Sheet`]: crate::geometry::Sheet
 
 mod assemble;
 mod cache;

@@ -2,7 +2,7 @@
 
 use super::boundary::Boundary;
 
-/// The parameters of [`MacGrid::new`].
+/// The parameters of [`MacGrid::new`](super::MacGrid::new).
 #[derive(Clone)]
 pub struct MacGridParams {
     /// Cells along x, y and z. One cell makes the flow uniform along that axis: 64 × 64 × 1 is a
