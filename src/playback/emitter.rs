@@ -95,6 +95,38 @@ pub struct Emitter {
     pub(super) alive: VecDeque<(f64, RigidBodyHandle)>,
 }
 
+/// Steps after which what is wrong with a body has shown.
+const TRIAL_STEPS: usize = 8;
+
+/// Lets rapier step two emitted bodies that touch: what it makes NaN of, whichever of their many settings is
+/// to blame, is refused.
+///
+/// # Errors
+/// [`Error::NotFinite`].
+fn check_emitted(body: RigidBody, collider: ColliderBuilder) -> Result<(), Error> {
+    Error::check_not_negative("friction of the collider", collider.friction.into())?;
+    Error::check_not_negative("restitution of the collider", collider.restitution.into())?;
+    Error::check_not_negative("contact skin of the collider", collider.contact_skin.into())?;
+    let mut world = PhysicsWorld::new();
+    world.insert(body.clone(), collider.clone());
+    let (handle, _) = world.insert(body, collider);
+    for _ in 0..TRIAL_STEPS {
+        world.step();
+    }
+    let body = &world.bodies[handle];
+    let state = [
+        body.translation(),
+        body.linvel(),
+        body.angvel(),
+        body.center_of_mass(),
+    ];
+    for vector in state {
+        Error::check_all_finite("emitted body", &vector.to_array().map(f64::from))?;
+    }
+    Error::check_finite("mass of the emitted body", body.mass().into())?;
+    Ok(())
+}
+
 impl Emitter {
     /// An emitter of bodies like `body` with `collider` (whose center of mass is the body's origin)
     /// that are `immersed` so, and play one of `paths`. Whatever type the body has, those that play by
@@ -144,6 +176,7 @@ impl Emitter {
         }
         immersed.hydro.check()?;
         immersed.law.check()?;
+        check_emitted(body.clone(), collider.clone())?;
         let axes = crate::math::to_rotation(immersed.hydro.planform.axes.into());
         Ok(Self {
             random: Pcg64Mcg::seed_from_u64(params.seed),

@@ -157,7 +157,11 @@ impl PlayerState {
         }
         let com = self.origin + self.now.0;
         let origin = com - rotation * body.local_center_of_mass();
-        body.set_next_kinematic_position(Pose::from_parts(origin, rotation.normalize()));
+        let pose = Pose::from_parts(origin, rotation.normalize());
+        // A path of numbers beyond single precision moves nobody.
+        if pose.translation.is_finite() && pose.rotation.is_finite() {
+            body.set_next_kinematic_position(pose);
+        }
     }
 
     /// Makes a kinematic body dynamic, with the velocities that it has on its path.
@@ -166,8 +170,8 @@ impl PlayerState {
         if self.clock == 0.0 {
             let next = self.path.at(dt);
             let attitude = self.turn * next.attitude * self.to_plate;
-            body.set_linvel(self.turn * self.path.at(0.0).velocity, true);
-            body.set_angvel(vector(attitude * self.now.1.inverse()) / dt, true);
+            let linear = self.turn * self.path.at(0.0).velocity;
+            set_velocities(body, linear, vector(attitude * self.now.1.inverse()) / dt);
         }
         body.set_body_type(RigidBodyType::Dynamic, true);
         (self.waiting, self.taken, self.free) = (true, false, 0.0);
@@ -247,8 +251,7 @@ impl PlayerState {
         } else {
             (linear, angular)
         };
-        body.set_linvel(linear, true);
-        body.set_angvel(angular, true);
+        set_velocities(body, linear, angular);
         self.clock < self.path.duration()
     }
 
@@ -276,6 +279,15 @@ impl PlayerState {
     /// Lets the path go through a point at the present time.
     fn anchor(&mut self, com: Vector) {
         self.origin = com - self.now.0;
+    }
+}
+
+/// Sets velocities, but for those that are no numbers: rapier never gets any.
+#[inline]
+fn set_velocities(body: &mut RigidBody, linear: Vector, angular: Vector) {
+    if (linear + angular).is_finite() {
+        body.set_linvel(linear, true);
+        body.set_angvel(angular, true);
     }
 }
 

@@ -46,7 +46,7 @@ fn leaf() -> ColliderBuilder {
 fn assert_finite(world: &PhysicsWorld) {
     for (_, body) in world.bodies.iter() {
         let numbers = [body.translation(), body.linvel(), body.angvel()];
-        assert!(numbers.iter().all(|v| v.is_finite()), "{numbers:?}");
+        assert!(numbers.iter().all(|v| v.is_finite()), "{body:?}");
     }
 }
 

@@ -121,6 +121,7 @@ pub(super) fn finish(
     };
     let mass = state.flight.solver_mass.into();
     if let Some((linear, angular)) = contact_mass::correction(shared, body, sets.narrow_phase, mass)
+        && (linear + angular).is_finite()
     {
         state.flight.corrected_contacts += 1;
         body.set_linvel(body.linvel() + linear, false);

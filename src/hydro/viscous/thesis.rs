@@ -1,4 +1,4 @@
-//! The thesis' law: three components with instantaneous coefficients (§ 5.3.2).
+//! The thesis's law: three components with instantaneous coefficients (§ 5.3.2).
 
 use super::coefficients::{Bounds, Coefficient, coefficients};
 use super::physical::PhysicalLaw;
