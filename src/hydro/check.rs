@@ -30,6 +30,7 @@ impl HydroProperties {
         }
         let plate = &self.planform;
         let axes = plate.axes.matrix();
+        Error::check_all_finite("planform axes", axes.as_slice())?;
         let skewness = (axes * axes.transpose()).map_with_location(|i, j, x| {
             let identity = if i == j { 1.0 } else { 0.0 };
             (x - identity).abs()
@@ -74,12 +75,17 @@ mod tests {
         let half = rapier3d::math::Vector::new(0.04, 0.001, 0.02);
         let good = HydroProperties::from_shape(&Cuboid::new(half)).unwrap();
         good.check().unwrap();
-        let fields: [(&str, fn(&mut HydroProperties) -> &mut f64, &[f64]); 12] = [
+        let fields: [(&str, fn(&mut HydroProperties) -> &mut f64, &[f64]); 13] = [
             ("volume", |h| &mut h.volume, &[0.0, -1.0]),
             ("centroid", |h| &mut h.centroid.x, &[]),
             ("reference", |h| &mut h.reference.y, &[]),
             ("added mass", |h| &mut h.added_mass.linear[(0, 0)], &[-1.0]),
             ("center", |h| &mut h.planform.center.z, &[]),
+            (
+                "axes",
+                |h| &mut h.planform.axes.matrix_mut_unchecked()[(1, 2)],
+                &[3.0],
+            ),
             ("area", |h| &mut h.planform.area, &[0.0, -1.0]),
             (
                 "half extent",

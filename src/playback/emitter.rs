@@ -252,10 +252,13 @@ impl Emitter {
             }
         });
         let turn = Rotation::from_axis_angle(Vector::Y, heading) * tilt;
-        let pose = match &player {
-            Some(player) => player.release(Vector::ZERO),
-            None => Pose::from_parts(place, turn),
-        };
+        let free = Pose::from_parts(place, turn);
+        let pose = player
+            .as_ref()
+            .map_or(free, |player| player.release(Vector::ZERO));
+        // A path of numbers beyond single precision begins nowhere.
+        let known = pose.translation.is_finite() && pose.rotation.is_finite();
+        let pose = if known { pose } else { free };
         let kinematic = played && self.params.drive == Drive::Kinematic;
         body.set_body_type(
             match kinematic {
