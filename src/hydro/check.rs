@@ -69,13 +69,15 @@ mod tests {
     use super::*;
     use rapier3d::parry::shape::Cuboid;
 
+    type Field = fn(&mut HydroProperties) -> &mut f64;
+
     /// Each field in turn is made what it cannot be, by every value that cannot be.
     #[test]
     fn each_field_is_checked() {
         let half = rapier3d::math::Vector::new(0.04, 0.001, 0.02);
         let good = HydroProperties::from_shape(&Cuboid::new(half)).unwrap();
         good.check().unwrap();
-        let fields: [(&str, fn(&mut HydroProperties) -> &mut f64, &[f64]); 13] = [
+        let fields: [(&str, Field, &[f64]); 13] = [
             ("volume", |h| &mut h.volume, &[0.0, -1.0]),
             ("centroid", |h| &mut h.centroid.x, &[]),
             ("reference", |h| &mut h.reference.y, &[]),
