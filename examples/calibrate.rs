@@ -1,6 +1,10 @@
 //! Finds the coefficients of the default viscous law: drops plates, discs and papers as they were dropped
 //! in published experiments, and searches for what reproduces them best.
 //!
+//! ```text
+//! cargo run --release --features bake,serde-serialize --example calibrate -- --fit half
+//! ```
+//!
 //! The search is CMA-ES (Hansen 2016) between the bounds of
 //! [`searched`](rapier3d_immersed::training::fidelity::searched), on all cores and
 //! reproducible from its seed. Every evaluation is appended to a log; started again with the same flags

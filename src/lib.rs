@@ -45,12 +45,13 @@
 //! ```text
 //! training   playback      sweeps, plans, fits; bodies on synthesized paths
 //!     coupling             Immersion: the bridge to rapier
+//!    interning             equal values, stored once
 //!      motion              patterns, phase diagram, codebooks, paths
 //!     dynamics             Kirchhoff's equations, the integrator, FreeBody
 //!       body               ImmersedBody, DryMass
 //! hydro   turbulence       added mass, viscous laws; k–ε, Langevin
 //! geometry  flow  reduced  surfaces; velocity fields; separated representations
-//! math  file  fluid        scalars and lanes; sealed tables; density and viscosity
+//! math file fluid preset   scalars and lanes; sealed tables; density, viscosity; leaf-sized worlds
 //!       error              the one error type
 //! ```
 //!

@@ -1,4 +1,4 @@
-//! A card that flies by the crate's own dynamics under the thesis' law, thrown in any way.
+//! A card that flies by the crate's own dynamics under the thesis's law, thrown in any way.
 
 use super::free_fall::Specimen;
 use rapier3d_immersed::rapier3d::na::{Matrix3, Rotation3, UnitQuaternion, Vector3};

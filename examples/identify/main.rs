@@ -1,5 +1,9 @@
 //! Identifies the coefficients and the initial state of a falling body from its track: of a planar
-//! plate, or of a card that flies by the crate's own dynamics under the thesis' law.
+//! plate, or of a card that flies by the crate's own dynamics under the thesis's law.
+//!
+//! ```text
+//! cargo run --release --example identify -- --model card
+//! ```
 //!
 //! Reads a CSV file as from a tracked video (seconds, metres with the vertical last, radians) with the
 //! header `t,x,y,angle` (plate) or `t,x,y,z,qx,qy,qz,qw` (card: center and orientation, the long axis along

@@ -99,7 +99,7 @@ pub fn plate(inertia_ratio: f64, length: f64, speed: f64) -> Model {
     }
 }
 
-/// The card in air under the thesis' law.
+/// The card in air under the thesis's law.
 ///
 /// # Errors
 /// If its shape or mass cannot be.

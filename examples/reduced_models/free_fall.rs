@@ -178,7 +178,7 @@ pub struct Domain {
 impl Domain {
     /// The card zigzags, everywhere (the coefficients are those of thesis Fig. 5.6c).
     pub const ZIGZAG: Self = Self {
-        name: "card, thesis' law: zigzag, ρ_s/ρ_f 600 to 735",
+        name: "card, thesis's law: zigzag, ρ_s/ρ_f 600 to 735",
         coefficients: &ThesisLaw::ZIGZAG,
         density_ratio: (600.0, 735.0),
         release_angle: (0.1, 0.3),

@@ -1,5 +1,9 @@
 //! Draws the examples of thesis §6.4 (its Figs. 6.2 to 6.8) and what separated surrogates of a
-//! falling plate and of the crate's own dynamics are worth, error against horizon.
+//! falling plate and of the crate's own dynamics are worth, error against horizon, and prints the errors.
+//!
+//! ```text
+//! cargo run --release --example reduced_models -- --out out
+//! ```
 
 mod chart;
 mod errors;

@@ -192,7 +192,7 @@ fn flow_map(
 /// One panel's curves: what was separated, and its errors.
 pub type Curves = Vec<(&'static str, Errors)>;
 
-/// The card in air under the thesis' law.
+/// The card in air under the thesis's law.
 pub fn card(domain: &Domain, bar: &ProgressBar) -> Result<Curves, Box<dyn Error>> {
     let specimen = Specimen::card()?;
     let truth = truth(&specimen, domain, &CARD_HORIZONS, 60)?;

@@ -9,7 +9,7 @@ use crate::hydro::viscous::ViscousLaw;
 use rapier3d::na::{Matrix3, Vector3};
 use std::sync::Arc;
 
-/// What makes a body fly: its shape as the fluid feels it, and the law of the viscous force.
+/// What decides the fluid's force on a body: its shape as the fluid feels it, and the viscous law.
 ///
 /// Independent of mass, fluid and state: equal bodies share one description.
 #[derive(Clone, Debug, PartialEq)]

@@ -65,7 +65,7 @@ pub(super) struct FlightState {
     pub end_angular: Vector,
     /// Mass that rapier's solver uses, kg.
     pub solver_mass: Real,
-    /// Steps in a row whose contacts have been corrected.
+    /// Steps whose contacts have been corrected since the body last touched nothing.
     pub corrected_contacts: u8,
     /// Velocity of the fluid in the last step, m/s, with its fluctuation.
     pub fluid_velocity: Vector,

@@ -15,7 +15,7 @@ use std::sync::Arc;
 )]
 pub(super) struct Environment {
     pub fluid: Fluid,
-    /// Seconds that the set has been stepped.
+    /// Seconds that the set has been stepped while it was enabled.
     pub time: f64,
     /// Number of steps so far: the noise of a step depends on it.
     pub steps: u64,

@@ -29,12 +29,12 @@ use std::sync::Arc;
 ///
 /// # What it does to a body
 /// From the step after its insertion until it is removed or disabled, an immersed body
-/// * has all its mass properties moved to its first collider, with the fluid's share of the
+/// * has all its mass properties moved to its first enabled collider, with the fluid's share of the
 ///   rotational inertia (and, near contacts, of the mass) added: other colliders then read
 ///   `mass() == 0`;
 /// * may rotate by more than 45° per step, and has rapier's gyroscopic forces off (the crate
 ///   integrates them);
-/// * does not fall asleep unless it touches something;
+/// * does not fall asleep unless it touches something, is jointed or has locked axes;
 /// * keeps its user forces, gravity scale (which scales the buoyancy too), damping, locked axes and
 ///   joints.
 ///
@@ -236,7 +236,7 @@ impl Immersion {
         }
     }
 
-    /// Stirs the fluid: turbulence on top of the mean flow, another for each body.
+    /// Adds turbulence to the mean flow. Its fluctuations differ from body to body.
     ///
     /// A [`Turbulence`](crate::turbulence::Turbulence) acts as the fluctuating velocity of the fluid
     /// that a body sees, with seed 0; [`TurbulentLayer`] chooses otherwise.
@@ -266,7 +266,7 @@ impl Immersion {
         }
     }
 
-    /// Seconds that the set has been stepped.
+    /// Seconds that the set has been stepped while it was enabled.
     pub fn time(&self) -> f64 {
         self.environment.time
     }
@@ -386,7 +386,7 @@ impl Immersion {
     /// immersion.insert(ball, hydro);
     /// immersion.step(&mut world);
     /// let forces = immersion.forces(&world.bodies, ball).unwrap();
-    /// assert!((forces.buoyancy.force.y - 998.2 * 0.004189 * 9.81).abs() < 0.2); // ρVg, N
+    /// assert!((forces.buoyancy.force.y - 997.0 * 0.004189 * 9.81).abs() < 0.2); // ρVg, N
     /// # Ok::<(), rapier3d_immersed::Error>(())
     /// ```
     pub fn forces(&self, bodies: &RigidBodySet, handle: RigidBodyHandle) -> Option<ForceBreakdown> {
@@ -421,15 +421,17 @@ impl Immersion {
         }
     }
 
-    /// The factors on the forces of a body's law in the last step.
+    /// The factors on the forces of a body's law: those that were set or, during a replay, those of the last
+    /// step.
     pub fn control(&self, handle: RigidBodyHandle) -> Option<ForceFactors> {
         self.registry.get(handle).map(|state| state.control.factors)
     }
 
     /// Lets a body replay a series from its beginning, at the next step; after its last entry that one
     /// stays. The body must be under the law that the series was planned for
-    /// ([`Codebook::law`](crate::motion::Codebook)). A body that is held by a joint counts as touching:
-    /// its series begins when it breaks loose. Unknown handles are ignored.
+    /// ([`Codebook::law`](crate::motion::Codebook)). A body that is held by a joint or has locked axes counts
+    /// as touching: under [`OnContact::Restart`] its series begins when it is free, under [`OnContact::Stop`]
+    /// it ends at once. Unknown handles are ignored.
     pub fn replay(
         &mut self,
         handle: RigidBodyHandle,

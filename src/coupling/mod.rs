@@ -1,4 +1,4 @@
-//! The bridge to rapier: the only place that reads and writes its bodies for the fluid's sake.
+//! The bridge to rapier: the only place that lets the fluid act on its bodies.
 //!
 //! ```text
 //! Immersion (façade) ──► registry ──► body_state        which bodies, and what is kept of each
@@ -6,6 +6,7 @@
 //!     │                  environment, control           the fluid; factors on forces
 //!     ├──► admission ──► saved_properties               bodies enter and leave the fluid
 //!     ├──► readout                                      forces on one body
+//!     ├──► rapier_sets, warning, snapshot               what users hand in, are told, and may save
 //!     └──► step::driver                                 prepare → sample → integrate → write back
 //! ```
 

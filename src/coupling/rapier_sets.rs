@@ -21,7 +21,7 @@ pub struct RapierSets<'a> {
     pub narrow_phase: &'a NarrowPhase,
     /// The bodies.
     pub bodies: &'a mut RigidBodySet,
-    /// The colliders; written only when a body enters or leaves the fluid.
+    /// The colliders; written when a body enters or leaves the fluid, and when its mass changes near a contact.
     pub colliders: &'a mut ColliderSet,
     /// Joints: jointed bodies are handed over like those in contact.
     pub impulse_joints: &'a ImpulseJointSet,

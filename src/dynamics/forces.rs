@@ -1,4 +1,4 @@
-//! Why does it do that: every component of the force on one body.
+//! The force on one body, component by component.
 
 use super::constants::BodyConstants;
 use crate::hydro::viscous::ForceFactors;
@@ -61,7 +61,7 @@ impl ForceBreakdown {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ForceBreakdown {
     /// Inertia of the fluid that the body drags along: `−A dν/dt` with the acceleration of the last
-    /// step, and the Munk moment and its kin.
+    /// step, and the Munk moment and the other inertial couplings.
     pub added_mass: ForceAndTorque,
     /// Along the velocity of the pressure point, against it: pressure and friction.
     pub drag: ForceAndTorque,

@@ -14,7 +14,7 @@ use crate::math;
 use crate::math::spatial::{Twist, rotate_back};
 use rapier3d::na::{UnitQuaternion, Vector3};
 
-/// A body that flies alone: the same equations, law and integrator as in a rapier world, in f64.
+/// One body without a rapier world, by the same equations, law and integrator, in f64.
 ///
 /// Positions are those of the center of mass; angular and linear velocities are in world axes.
 ///
@@ -58,8 +58,8 @@ impl FreeBody {
     /// A body at rest at the origin, its frame aligned with the world's.
     ///
     /// # Errors
-    /// [`Error::InvalidParameter`] if mass or inertia are not positive and finite,
-    /// [`Error::OutOfRange`] if a coefficient of the law is not, [`Error::UnphysicalAddedMass`].
+    /// Those of [`DryMass::check`], [`HydroProperties::check`](crate::HydroProperties::check) and
+    /// [`ViscousLaw::check`](crate::ViscousLaw::check); [`Error::UnphysicalAddedMass`].
     pub fn new(body: &ImmersedBody, mass: &DryMass, fluid: &Fluid) -> Result<Self, Error> {
         let constants = BodyConstants::new(body, mass, fluid)?;
         let attitude = UnitQuaternion::from_rotation_matrix(&constants.axes);

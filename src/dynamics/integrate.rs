@@ -26,7 +26,7 @@
 //! # Designs compared
 //!
 //! Error of the position after half a second, relative to the path, at 60, 240 and 960 substeps per
-//! second (test `dynamics::designs`, which also flies each design):
+//! second (test `dynamics::designs`, which also runs each design):
 //!
 //! | design | evaluations | leaf in air | steel plate in water | foam plate in water |
 //! |---|---|---|---|---|
@@ -227,8 +227,8 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
         substep::<SYMMETRIC, T, L>(inertia, law, load, motion, h, iterations);
         done += one;
     }
-    // Whatever goes wrong (a law that pumps, a fluid at 10⁶ m/s), rapier never sees it: NaN fails
-    // the comparison, and the body coasts through this step.
+    // Whatever goes wrong (a law that adds energy, a fluid at 10⁶ m/s) does not reach rapier: NaN fails
+    // the comparison, and the body keeps its velocity for this step.
     let size =
         norm(&motion.velocity.linear) + norm(&motion.velocity.angular) + norm(&motion.displacement);
     let limit = dt.constant(1e6);

@@ -1,6 +1,6 @@
 //! How a step of rapier is divided.
 
-/// How finely, and how exactly, a step is integrated.
+/// How finely a step is divided, and how exactly each part is solved.
 ///
 /// # How many substeps
 ///

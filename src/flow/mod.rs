@@ -61,7 +61,7 @@ pub struct FlowSample {
 /// A velocity field: the one trait that users implement.
 ///
 /// Bodies feel the flow at their center of mass. All quantities are in world axes and SI units;
-/// `time` is the time of the [immersion](crate::Immersion::time), in seconds since it was created.
+/// `time` is the [time of the immersion](crate::Immersion::time): the seconds that it has been stepped.
 ///
 /// ```
 /// use rapier3d_immersed::flow::Flow;

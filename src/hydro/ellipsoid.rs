@@ -212,7 +212,7 @@ mod tests {
         assert_relative_eq!(elliptic.linear[(2, 2)], 6.91758, max_relative = 1e-6);
         assert_relative_eq!(elliptic.angular[(0, 0)], 0.79523, max_relative = 1e-5);
         assert_relative_eq!(elliptic.angular[(1, 1)], 4.39131, max_relative = 1e-5);
-        // A leaf 0.3 mm thick is on its way to that limit: no digits are lost.
+        // A leaf 0.3 mm thick is close to that limit, and no digits are lost.
         let thin = ellipsoid(2.0, 1.0, 1e-9).added_mass();
         assert_relative_eq!(
             thin.linear[(2, 2)],

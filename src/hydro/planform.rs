@@ -38,7 +38,7 @@ impl Planform {
             .corners()
             .map(|corners| {
                 let [a, b, c] = corners.map(|v| to_plate * (v - integrals.centroid));
-                // Each line of sight enters and leaves: half of what shows.
+                // Every line along the normal crosses the surface twice, hence the half.
                 let area = (b - a).cross(&(c - a)).z.abs() / 4.0;
                 ([a, b, c], area)
             })

@@ -81,7 +81,7 @@ fn four_lanes() -> Option<impl Simd> {
     fearless_simd::Level::new().as_wasm_simd128()
 }
 
-/// On other targets the compiler makes do.
+/// Other targets have no such instructions; the compiler emulates four lanes.
 #[cfg(not(any(
     all(
         any(target_arch = "x86", target_arch = "x86_64"),

@@ -1,6 +1,6 @@
 //! Vectors, rotations and the six-dimensional quantities of a rigid body, for every [`Scalar`].
 //!
-//! nalgebra's own products start from its zeros, which lanes cannot make of nothing (see
+//! nalgebra's own products start from its zeros, which lanes cannot make without a value (see
 //! [`scalar`](super::scalar)); they are therefore written out here.
 
 use super::Scalar;

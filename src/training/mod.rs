@@ -4,7 +4,7 @@
 //! In the order of use: an [`Experiment`] drops a body; a [`Sweep`] drops it at every node of a [`Grid`] of
 //! parameters and is refined where neighbours disagree; [`Subspaces`] answer which pattern a point belongs
 //! to, by the direct [`Classifier`](crate::motion::Classifier) or by [`Clusters`], the thesis's own
-//! classification. A [`Planner`] makes series of coefficients from them, which a body in rapier replays
+//! classification. A [`Planner`] makes series of force factors from them, which a body in rapier replays
 //! ([`Immersion::replay`](crate::Immersion::replay)). A [`Sketch`](crate::motion::Sketch) that is followed
 //! ([`Sketch::follow`](crate::motion::Sketch::follow)) needs an experiment only. Apart from these,
 //! [`fidelity`] compares laws with measured falls, [`FallStatistics`] say what a fall amounts to, and

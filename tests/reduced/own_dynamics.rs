@@ -1,4 +1,4 @@
-//! Surrogates of the crate's own dynamics: the thesis' card over C̃, density ratio and release angle,
+//! Surrogates of the crate's own dynamics: the thesis's card over C̃, density ratio and release angle,
 //! and a plate under the default law. Errors off the grid, relative to the spread over the domain.
 
 use crate::errors::Truth;

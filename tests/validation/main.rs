@@ -8,9 +8,11 @@ mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod fuzz;
 mod impact;
+mod induced_drag;
 mod kirchhoff;
 mod lifecycle;
 mod misuse;
+mod moving_fluid;
 mod plain;
 mod published;
 mod published_bars;
@@ -19,8 +21,7 @@ mod robustness;
 mod shapes;
 mod sleepers;
 mod sphere;
-mod stream;
+
 mod support;
 mod thesis_law;
 mod turbulence;
-mod wing;

@@ -1,4 +1,4 @@
-//! The thesis' law as printed, on the thesis' card (Fig. 5.6 and 5.7): release angle 10°, from rest,
+//! The thesis's law as printed, on the thesis's card (Fig. 5.6 and 5.7): release angle 10°, from rest,
 //! a = 3.5 cm, b = 2 cm. Our reading of what the thesis leaves open: these are semi-axes, the thickness is
 //! 0.4 mm, the density 800 kg/m³, the fluid air, the fall 3 s long, and the long axis points down by the
 //! release angle.

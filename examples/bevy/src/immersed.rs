@@ -12,7 +12,9 @@ use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
 /// Goes into the schedule of [`RapierPhysicsPlugin`], whose [`TimestepMode`] must be
 /// `Fixed` with one substep: of several steps at a time bevy_rapier shows only the first and the last.
 pub struct ImmersionPlugin<S> {
+    /// The fluid that the bodies are in.
     pub fluid: Fluid,
+    /// The schedule that rapier's plugin runs in.
     pub schedule: S,
 }
 

@@ -13,7 +13,7 @@ use crate::math::{to_f64, to_quaternion, to_real};
 use rapier3d::dynamics::RigidBody;
 use rapier3d::geometry::{ColliderHandle, ContactPair, NarrowPhase};
 use rapier3d::math::{Real, Vector};
-use rapier3d::na::Vector6;
+use rapier3d::na::{Vector3, Vector6};
 use rapier3d::parry::query::contact;
 
 /// Marks the bodies that meet others where these are few, so that the rest need not be asked for
@@ -173,7 +173,7 @@ pub(super) fn correction(
         let already = inertia.try_inverse().map_or(t * 0.0, |inverse| inverse * t);
         change.fixed_rows::<3>(3) - already
     } else {
-        t
+        Vector3::zeros()
     };
     Some((to_real(rotation * linear), to_real(rotation * angular)))
 }

@@ -14,7 +14,7 @@ use rapier3d::prelude::*;
 use std::sync::atomic::Ordering;
 
 /// Bodies of every law, thin and thick, centered and not, free and on the ground, of kinds that
-/// differ from neighbour to neighbour, in a turbulent stream; their poses after a second.
+/// differ from neighbour to neighbour, in a turbulent flow; their poses after a second.
 fn poses() -> Vec<[u32; 7]> {
     let mut world = PhysicsWorld::new();
     let ground = ColliderBuilder::cuboid(10.0, 0.5, 10.0).translation(Vector::Y * -0.6);
@@ -85,7 +85,7 @@ fn poses() -> Vec<[u32; 7]> {
 
 /// To the bit: what happens to a body does not depend on the machine's registers.
 #[test]
-fn wide_and_narrow_registers_fly_alike() {
+fn wide_and_narrow_registers_give_equal_bits() {
     let wide = poses();
     NARROW.store(true, Ordering::Relaxed);
     let narrow = poses();

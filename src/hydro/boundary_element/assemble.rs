@@ -45,7 +45,7 @@ impl Vortex {
         inner: 0.0,
     };
 
-    /// Panel P feels panel Q of normal `n`.
+    /// Adds what panel Q of normal `n` contributes to panel P.
     fn add(&mut self, n: &Vector3<f64>, first_p: &Vector3<f64>, first_q: &Vector3<f64>) {
         self.outer += first_q * n.transpose();
         self.inner += n.dot(first_p);

@@ -26,7 +26,8 @@
 //! # Thin bodies
 //! A closed surface is solved as such however thin it is: an ellipsoid 10⁻⁵ as thick as long, on 1280
 //! panels, is right to 0.2 % broadside. There is no thickness at which to switch to another formulation, and
-//! none is switched to; [`Sheet`] is for meshes that have no thickness to begin with. What thin
+//! none is switched to; [`Sheet`] is for bodies that are given by their mid-surface, whose added
+//! mass is that of zero thickness. What thin
 //! bodies do lose is the relative accuracy of entries that are tiny beside the others: the added mass
 //! of a leaf in its own plane, 10⁻⁴ of the broadside one, is right in its order of magnitude only.
 //!

@@ -1,6 +1,6 @@
 //! Viscous forces: drag, translational lift, rotational lift and damping.
 //!
-//! Several laws, one form. Whatever the law, its force on the body is
+//! All laws have one form. The force on the body is
 //!
 //! ```text
 //! f = −(c·1 + S) v + W × v        v = velocity of the pressure point relative to the fluid

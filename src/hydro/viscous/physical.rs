@@ -63,7 +63,7 @@ coefficients! {
         rotational_aspect: 6.55, NotNegative, search 0.0 to 12.0;
         /// ε: loss of rotational lift broadside on.
         rotational_stall: 0.176, Unit, search 0.0 to 1.0;
-        /// k_M ∈ [0, 1]: share of the added mass' inertial coupling (Munk moment) that is felt.
+        /// k_M ∈ [0, 1]: share of the added mass's inertial coupling (Munk moment) that is felt.
         munk: 0.0345, Unit, search 0.0 to 1.0;
         /// k₁: damping of rotation by translation.
         translation_damping: 0.0827, NotNegative, search 0.0 to 1.5;
@@ -144,7 +144,7 @@ scalar_struct! {
 
 /// Exponent and factor of the disc's drag between creeping flow and its plateau:
 /// `C_D = (64/πRe)(1 + 0.138 Re^0.792)` for Re < 133 (Pitter, Pruppacher & Hamielec 1973), of which
-/// the first term is Stokes' and lives in the creeping resistance.
+/// the first term is Stokes's and is part of the creeping resistance.
 const DISC_MID: (f64, f64) = (64.0 / PI * 0.138, 0.792 - 1.0);
 /// Reynolds number above which the mid range has long passed below the plateau (69 % of it).
 const MID_ENDS: f64 = 400.0;
@@ -363,7 +363,7 @@ impl<T: Scalar> PhysicalConstants<T> {
         let behind = (self.attached_drag * slope - across).max(zero);
         let normal = across + wake * attached * (one - sine2) * behind;
         // Induced drag of both lifts, C_L²/(π AR (1 + 0.3 C_L)): linear where C_L is large, so that a
-        // body that hardly does more than spin is not stopped dead.
+        // body that hardly does more than spin does not lose its whole velocity at once.
         let (wx, wy) = (by_angle.x + by_spin.x, by_angle.y + by_spin.y);
         let lift = (wx * wx + wy * wy).sqrt();
         let dynamic = self.dynamic_area * v_speed;

@@ -28,7 +28,7 @@ coefficients! {
         /// κ: the unit vector of ω × u is regularised to `ω × u / (|ω × u| + κ |u|²/L)`, with L the
         /// major semi-axis, so that the lifts fade where the body hardly turns.
         regularisation: 0.02, NotNegative;
-        /// Share of the rotational damping of the default law, in [0, 1] or above.
+        /// Share of the rotational damping of the default law, at least 0.
         damping: 0.3, NotNegative;
     }
 }
@@ -45,7 +45,8 @@ impl ThesisLaw {
     }
 
     /// The law as printed, for comparison with the thesis: regularised by 10⁻⁹ only, undamped.
-    /// **It can blow up**: the step then drops the force rather than pass on a NaN.
+    /// **It can blow up**: the body then keeps its velocity and attitude for a step rather than
+    /// take on a NaN.
     pub fn printed(coefficients: [f64; 3]) -> Self {
         Self {
             regularisation: 1e-9,
