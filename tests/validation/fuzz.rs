@@ -126,6 +126,8 @@ fn emitters() {
     let hydro = HydroProperties::from_shape(leaf().shape.as_ref()).unwrap();
     let params = EmitterParams {
         rate: 600.0,
+        // One at a time: bodies as large as planets that overlap fail an assertion of parry's in debug builds.
+        most: 1,
         ..EmitterParams::default()
     };
     let body = RigidBodyBuilder::dynamic();
