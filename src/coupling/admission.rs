@@ -27,35 +27,38 @@ pub(super) fn renew_constants(
     constants: &mut ConstantsTable,
     environment: &Environment,
 ) -> Result<(), Error> {
-    let mut failed = Ok(());
+    let mut result = Ok(());
     for index in 0..registry.states().len() {
-        let Some(state) = &registry.states()[index] else {
-            continue;
-        };
-        let (Some(saved), None) = (&state.saved, constants.get(state.constants)) else {
-            continue;
-        };
-        let Some(body) = registry.description(state) else {
-            continue;
-        };
-        let used = || registry.used_constants();
-        let found = constants.intern(
-            state.description,
-            body,
-            &saved.dry,
-            &environment.fluid,
-            used,
-        );
-        match found {
-            Ok(found) => {
-                if let Some(state) = registry.at_mut(index) {
-                    state.constants = found;
-                }
-            }
-            Err(error) => failed = Err(error),
+        if let Err(error) = renew_constants_of(index, registry, constants, environment) {
+            result = Err(error);
         }
     }
-    failed
+    result
+}
+
+/// The same for the body at one index.
+pub(super) fn renew_constants_of(
+    index: usize,
+    registry: &mut Registry,
+    constants: &mut ConstantsTable,
+    environment: &Environment,
+) -> Result<(), Error> {
+    let Some(state) = &registry.states()[index] else {
+        return Ok(());
+    };
+    let (Some(saved), None) = (&state.saved, constants.get(state.constants)) else {
+        return Ok(());
+    };
+    let Some(body) = registry.description(state) else {
+        return Ok(());
+    };
+    let (description, fluid) = (state.description, &environment.fluid);
+    let used = || registry.used_constants();
+    let found = constants.intern(description, body, &saved.dry, fluid, used)?;
+    if let Some(state) = registry.at_mut(index) {
+        state.constants = found;
+    }
+    Ok(())
 }
 
 /// What admission looks at and changes.

@@ -135,15 +135,16 @@ impl Immersion {
         let description = self.registry.describe(body.into());
         for handle in handles {
             self.registry.insert(handle, description);
+            if let Some(index) = self.registry.index(handle) {
+                // What cannot be immersed is refused, and reported, with the next step.
+                let _ = admission::renew_constants_of(
+                    index,
+                    &mut self.registry,
+                    &mut self.constants,
+                    &self.environment,
+                );
+            }
         }
-        self.renew_constants();
-    }
-
-    /// Finds the constants of bodies whose fluid or description has changed. What cannot be immersed is
-    /// refused, and reported, with the next step.
-    fn renew_constants(&mut self) {
-        let _ =
-            admission::renew_constants(&mut self.registry, &mut self.constants, &self.environment);
     }
 
     /// Takes a body out of the fluid and gives it back the mass properties and switches that it had.
@@ -213,7 +214,9 @@ impl Immersion {
         self.environment.fluid = fluid;
         self.constants.clear();
         self.registry.forget_constants();
-        self.renew_constants();
+        // What cannot be immersed is refused, and reported, with the next step.
+        let _ =
+            admission::renew_constants(&mut self.registry, &mut self.constants, &self.environment);
     }
 
     /// Sets the velocity field of the fluid.
