@@ -15,6 +15,7 @@ mod control;
 mod environment;
 mod immersion;
 mod interning;
+mod principal_mass;
 mod rapier_sets;
 mod readout;
 mod registry;

@@ -1,8 +1,8 @@
 //! What of a rapier world the coupling works on.
 
 use rapier3d::dynamics::{
-    ImpulseJointSet, IntegrationParameters, IslandManager, LockedAxes, MultibodyJointSet,
-    RigidBody, RigidBodyHandle, RigidBodySet,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBodyHandle,
+    RigidBodySet,
 };
 use rapier3d::geometry::{ColliderSet, NarrowPhase};
 use rapier3d::math::Vector;
@@ -44,11 +44,15 @@ impl<'a> RapierSets<'a> {
         }
     }
 
-    /// Whether joints or locked axes keep a body from moving freely.
-    pub(super) fn hold(&self, body: &RigidBody, handle: RigidBodyHandle) -> bool {
-        body.locked_axes() != LockedAxes::empty()
-            || (!self.impulse_joints.is_empty()
-                && self.impulse_joints.attached_joints(handle).next().is_some())
-            || self.multibody_joints.rigid_body_link(handle).is_some()
+    /// Whether joints hold a body.
+    pub(super) fn join(&self, handle: RigidBodyHandle) -> bool {
+        (!self.impulse_joints.is_empty()
+            && self.impulse_joints.attached_joints(handle).next().is_some())
+            || self.link(handle)
+    }
+
+    /// Whether a body is a link of a multibody.
+    pub(super) fn link(&self, handle: RigidBodyHandle) -> bool {
+        self.multibody_joints.rigid_body_link(handle).is_some()
     }
 }
