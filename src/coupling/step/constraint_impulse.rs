@@ -44,6 +44,8 @@ const SLACK: Real = 1e-5;
 const ROUNDING: Real = 1e-6;
 /// Part of the expected impulse below which a constraint counts as open.
 const OPEN: Real = 0.25;
+/// Turn in a step, rad, after which the last impulse says nothing about the next.
+const FAR: Real = 1.0;
 
 /// The mass that a jointed body shows rapier: along the last impulse of its joints; the largest until that
 /// is known, so that the first impulse is that of the whole fluid where the body moves broadside on.
@@ -66,9 +68,13 @@ pub(super) fn is_slack(shared: &SharedConstants, body: &RigidBody, flight: &Flig
     }
 }
 
-/// The impulse that the coming step of `dt` counts on. After a longer step the impulse is that of a
-/// shorter time; after a shorter one it is not blown up, since rounding of tiny steps would be as well.
-pub(super) fn of_step(flight: &FlightState, dt: Real) -> Vector {
+/// The impulse that the coming step counts on. After a longer step the impulse is that of a
+/// shorter time; after a shorter one it is not blown up, since rounding of tiny steps would be as well. The
+/// joint of a body that turns far in a step will push in another direction: nothing is expected then.
+pub(super) fn of_step(flight: &FlightState, body: &RigidBody, dt: Real) -> Vector {
+    if body.angvel().length() * dt > FAR {
+        return Vector::ZERO;
+    }
     if flight.constraint_time > dt {
         flight.constraint_impulse * (dt / flight.constraint_time)
     } else {

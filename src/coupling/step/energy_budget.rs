@@ -3,15 +3,22 @@
 //! Rapier moves a jointed body with a scalar mass and the inertia of the step's start; body and fluid have
 //! 𝕄 in axes that turn with the body. Where a step turns it far, the velocity that the solver leaves has
 //! another energy ½ν·𝕄ν at the new attitude than the impulses have worked, and in thousands of steps a few
-//! per mille each way become a runaway. What the energy may be is known after the step: that of the motion
-//! which was integrated, with the work of the impulse J that was found in place of that of the Ĵ that was
-//! expected,
+//! per mille each way become a runaway. What the energy may be is known after the step. With ν₀ before it
+//! and ν₁ after it, relative to the fluid, and with the load Q (weight, buoyancy, user's force) and the
+//! constraint's impulse J,
 //!
 //! ```text
-//! E ≤ ½ν·𝕄ν (integrated) − Ĵ·(v₀ + v_pred)/2 + J·(v₀ + v₁)/2 + J_ω·(ω₀ + ω₁)/2
+//! ½ν₁·𝕄ν₁ ≤ ½ν₀·𝕄ν₀ + (Q dt + J)·(ν₀ + ν₁)/2
 //! ```
 //!
-//! with velocities relative to the fluid. In rapier's own terms, with its scalar mass, this work is exact.
+//! since drag only takes. In rapier's own terms the work of J is exact as long as the step does not turn the
+//! body far. Of joints without motors to bodies that stand still it is known better: they do none. Where the
+//! fluid changes its velocity it works, too; its work is in the motion that was integrated, ν':
+//!
+//! ```text
+//! ½ν₁·𝕄ν₁ ≤ ½ν'·𝕄ν' + J·(ν₀ + ν₁)/2 − Ĵ·(ν₀ + ν')/2
+//! ```
+//!
 //! A body that has more is slowed down, all velocities by the same factor, which keeps what a joint to the
 //! world demands. Errors that took energy are remembered up to a thousandth of it, so that those which come
 //! and go in turns damp nothing.
@@ -50,18 +57,30 @@ pub(super) fn keep(
     flight: &mut FlightState,
     start: &HeldStart,
     did: &Learnt,
+    dt: Real,
 ) {
-    let plate: Rotation = *body.rotation() * shared.axes;
+    let energy = |attitude: Rotation, relative: Vector, angular: Vector| {
+        let back = (attitude * shared.axes).inverse();
+        kinetic_energy(shared, back * relative, back * angular)
+    };
     let relative = body.linvel() - start.fluid_velocity;
-    let back = plate.inverse();
-    let now = kinetic_energy(shared, back * relative, back * body.angvel());
-    let integrated = kinetic_energy(shared, start.own_linear, start.own_angular);
+    let now = energy(*body.rotation(), relative, body.angvel());
     let before = start.linear - start.fluid_velocity;
     let mean = (before + relative) * 0.5;
-    let mean_expected = before + start.expected_change * 0.5;
     let mean_turn = (start.angular + body.angvel()) * 0.5;
-    let work = did.impulse.dot(mean) - start.impulse.dot(mean_expected) + did.moment.dot(mean_turn);
-    let reserve = flight.energy_reserve + integrated + work - now;
+    let without_joints = if start.steady {
+        let loads = start.load_force.dot(mean) + start.load_torque.dot(mean_turn);
+        energy(start.attitude, before, start.angular) + loads * dt
+    } else {
+        let integrated = kinetic_energy(shared, start.own_linear, start.own_angular);
+        integrated - start.impulse.dot(before + start.expected_change * 0.5)
+    };
+    let work = if start.workless {
+        0.0
+    } else {
+        did.impulse.dot(mean) + did.moment.dot(mean_turn)
+    };
+    let reserve = flight.energy_reserve + without_joints + work - now;
     if reserve.is_nan() {
         flight.energy_reserve = 0.0;
         return;

@@ -23,7 +23,7 @@ use std::f32::consts::{PI, TAU};
 /// Turn per step, rad, up to which the series is known to hold.
 const SLOW: Real = 1.5;
 /// Miss of the attitude, rad, that the next step can make up for.
-const MISS: Real = 0.02;
+const MISS: Real = 0.002;
 /// Relative difference of velocities that rounding can cause.
 const ROUNDING: Real = 2e-6;
 

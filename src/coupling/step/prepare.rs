@@ -96,7 +96,7 @@ pub(super) fn prepare(
         (linear, angular)
     };
     let impulse = match normal {
-        _ if jointed => constraint_impulse::of_step(flight, dt),
+        _ if jointed => constraint_impulse::of_step(flight, body, dt),
         Some(normal) => {
             let expected = friction::expected(shared, body, flight, normal, solver_mass, sets);
             flight.constraint_impulse = expected;
@@ -137,6 +137,7 @@ pub(super) fn prepare(
         in_contact: normal.is_some(),
         jointed,
         linked,
+        workless: jointed && sets.join_without_work(handle),
         locks,
         own_substeps: body.additional_solver_iterations() as u32,
         continues,

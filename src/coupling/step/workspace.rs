@@ -58,6 +58,8 @@ pub(in crate::coupling) struct StepInput {
     pub jointed: bool,
     /// Is a link of a multibody, whose velocity cannot be set.
     pub linked: bool,
+    /// Whether its joints can do no work.
+    pub workless: bool,
     pub locks: LockedAxes,
     /// Substeps that rapier takes for it beyond those of the others.
     pub own_substeps: u32,
@@ -190,6 +192,13 @@ pub(in crate::coupling) struct HeldStart {
     pub jointed: bool,
     /// Whether it flies freely all the same, its joints being slack.
     pub flies: bool,
+    /// Weight, buoyancy and user's force, N, and their torque, N·m.
+    pub load_force: Vector,
+    pub load_torque: Vector,
+    /// Whether the fluid's velocity is that of the last step.
+    pub steady: bool,
+    /// Whether its joints can do no work.
+    pub workless: bool,
     /// Whether its velocity may be set: rapier overwrites those of multibodies' links.
     pub settable: bool,
 }

@@ -3,7 +3,8 @@
 use super::held_motion;
 use super::mean_motion::MeanMotion;
 use super::workspace::{
-    Batch, Disturbance, HeldStart, SavedForces, StepContext, StepInput, StepOutput, Workspace,
+    Batch, Disturbance, HeldStart, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
+    Workspace,
 };
 use super::{constraint_impulse, contact_mass, energy_budget, locked_axes};
 use crate::body::from_rapier::inertia;
@@ -11,7 +12,7 @@ use crate::coupling::body_state::{FlightState, NONE};
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::{ConstantsTable, SharedConstants};
-use crate::math::{to_f64, to_quaternion, to_real, vector};
+use crate::math::{Row, to_f64, to_quaternion, to_real, vector};
 use rapier3d::dynamics::RigidBody;
 use rapier3d::math::{Rotation, Vector};
 use rapier3d::na::Matrix3;
@@ -20,6 +21,9 @@ use rapier3d::na::Matrix3;
 /// that is set after the step is new to the solver; in a pile of leaves such corrections kept up 2 cm/s
 /// forever, where without them it comes to rest below 1 mm/s.
 const IMPACT: u8 = 3;
+
+/// Turn of a multibody's link in a step, rad, from which on the fluid may only brake it.
+const FAST_LINK: f32 = 0.5;
 
 /// What is written besides rapier's sets.
 pub(super) struct Destination<'a> {
@@ -42,8 +46,10 @@ pub(super) fn write_back(batch: &Batch, sets: &mut RapierSets, to: &mut Destinat
                 state.flight.turbulence = *turbulence;
             }
         }
+        let still = |flow: &SeenFlow| flow.change == Row::default();
+        let steady = batch.flows.get(i).is_none_or(still);
         let disturbance = batch.disturbances.get(input.disturbance as usize);
-        if let Some(saved) = write_body(input, output, disturbance, sets, to) {
+        if let Some(saved) = write_body(input, output, disturbance, steady, sets, to) {
             to.saved_forces.push(saved);
         }
     }
@@ -54,6 +60,7 @@ fn write_body(
     input: &StepInput,
     output: &StepOutput,
     disturbance: Option<&Disturbance>,
+    steady: bool,
     sets: &mut RapierSets,
     to: &mut Destination,
 ) -> Option<SavedForces> {
@@ -101,6 +108,9 @@ fn write_body(
             input,
             output,
             impulse: disturbance.map_or(Vector::ZERO, |d| vector(d.impulse)),
+            user_force: saved.force,
+            user_torque: saved.torque,
+            steady,
             context: to.context,
         };
         let mut start = held.start(before, flight, force);
@@ -154,6 +164,10 @@ struct Held<'a> {
     output: &'a StepOutput,
     /// What the constraints are expected to do, N·s.
     impulse: Vector,
+    user_force: Vector,
+    user_torque: Vector,
+    /// Whether the fluid's velocity is that of the last step.
+    steady: bool,
     context: &'a StepContext,
 }
 
@@ -167,6 +181,9 @@ impl Held<'_> {
     ) -> HeldStart {
         let (input, output) = (self.input, self.output);
         let gravity = self.context.gravity * input.gravity_scale;
+        let constants = &self.shared.constants;
+        let (dry_mass, displaced) = (constants.dry.mass, constants.displaced_mass);
+        let arm = attitude * to_real(constants.buoyancy_arm);
         let mut start = HeldStart {
             attitude,
             linear,
@@ -180,6 +197,10 @@ impl Held<'_> {
             locks: input.locks,
             jointed: input.jointed,
             flies: input.free,
+            load_force: self.user_force + gravity * (dry_mass - displaced) as f32,
+            load_torque: self.user_torque + arm.cross(gravity * -displaced as f32),
+            steady: self.steady,
+            workless: input.workless,
             settable: !input.linked,
         };
         if input.free {
@@ -204,7 +225,14 @@ impl Held<'_> {
         let gravity = context.gravity * input.gravity_scale;
         let (linear, angular, attitude) = (start.linear, start.angular, start.attitude);
         let (mut force, mut torque) = (force, torque);
-        if !input.in_contact || !input.locks.is_empty() {
+        if input.linked {
+            // Rapier adds the gyroscopic torque of links by itself.
+            let end = Rotation::from_array(self.output.motion.attitude) * shared.axes.inverse();
+            let change = held_motion::turned(shared, end, vector(self.output.end_angular))
+                - held_motion::turned(shared, attitude, angular);
+            torque = change / dt;
+            (force, torque) = self.tamed(start, force, torque);
+        } else if !input.in_contact || !input.locks.is_empty() {
             let plate = Rotation::from_array(input.rapier_attitude);
             let substeps = context.substeps_of(input);
             let guess = vector(self.output.end_angular);
@@ -231,6 +259,34 @@ impl Held<'_> {
         }
         force -= self.impulse / dt;
         (force, torque)
+    }
+
+    /// Force and torque of a link that turns so far in a step that they are out of date within it: as much
+    /// of the fluid's share as takes energy. A link's velocity cannot be set right after the step.
+    fn tamed(&self, start: &HeldStart, force: Vector, torque: Vector) -> (Vector, Vector) {
+        let dt = self.context.dt;
+        let end = vector(self.output.end_angular);
+        if start.angular.length().max(end.length()) * dt < FAST_LINK {
+            return (force, torque);
+        }
+        let (fluid_force, fluid_torque) = (force - self.user_force, torque - self.user_torque);
+        let relative = start.linear - start.fluid_velocity;
+        let power = fluid_force.dot(relative) + fluid_torque.dot(start.angular);
+        // τ·I⁻¹τ, at most.
+        let inertia = &self.shared.step.scales.rapier_inertia;
+        let least = inertia.m11.min(inertia.m22).min(inertia.m33);
+        let pushed = fluid_force.length_squared() / self.input.solver_mass;
+        let turned = fluid_torque.length_squared() / least;
+        let whole = 0.5 * dt * (pushed + turned);
+        let share = if whole > 0.0 {
+            (-power / whole).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        (
+            self.user_force + fluid_force * share,
+            self.user_torque + fluid_torque * share,
+        )
     }
 
     /// Rapier's tensor of inertia, world axes.
@@ -270,7 +326,7 @@ pub(super) fn finish(
             let dt = sets.integration_parameters.dt;
             let did = constraint_impulse::learn(shared, body, &mut state.flight, start, dt);
             if start.settable && !start.flies {
-                energy_budget::keep(shared, body, &mut state.flight, start, &did);
+                energy_budget::keep(shared, body, &mut state.flight, start, &did, dt);
             }
         } else {
             held_motion::settle(shared, body, start);

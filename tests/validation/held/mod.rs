@@ -1,0 +1,4 @@
+//! Bodies that something holds.
+
+mod energy;
+mod energy_scene;
