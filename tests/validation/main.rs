@@ -4,6 +4,7 @@ mod control;
 mod determinism;
 mod equivalence;
 mod fidelity;
+mod held;
 mod impact;
 mod kirchhoff;
 mod lifecycle;

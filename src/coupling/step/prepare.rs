@@ -96,7 +96,7 @@ pub(super) fn prepare(
         (linear, angular)
     };
     let impulse = match normal {
-        _ if jointed => constraint_impulse::of_step(flight, body, dt),
+        _ if jointed => constraint_impulse::of_step(flight, body, linked, dt),
         Some(normal) => {
             let expected = friction::expected(shared, body, flight, normal, solver_mass, sets);
             flight.constraint_impulse = expected;

@@ -325,7 +325,9 @@ pub(super) fn finish(
         if start.jointed {
             let dt = sets.integration_parameters.dt;
             let did = constraint_impulse::learn(shared, body, &mut state.flight, start, dt);
-            if start.settable && !start.flies {
+            // A body that flew the whole step has the energy that was integrated.
+            let flew = start.flies && did.impulse == Vector::ZERO;
+            if start.settable && !flew {
                 energy_budget::keep(shared, body, &mut state.flight, start, &did, dt);
             }
         } else {

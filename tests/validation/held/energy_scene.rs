@@ -157,17 +157,18 @@ fn scene(case: &Case) -> Scene {
                 other
             }
         };
-        let own_anchor = if case.to == To::World { Vector::ZERO } else { anchor };
+        let own_anchor = if case.to == To::World {
+            Vector::ZERO
+        } else {
+            anchor
+        };
         let turn = if case.to == To::World {
             Rotation::IDENTITY
         } else {
             Rotation::from_rotation_x(std::f32::consts::PI)
         };
         let frame = |at: Vector, turn: Rotation| Pose::from_parts(at, turn);
-        let (first, second) = (
-            frame(own_anchor, Rotation::IDENTITY),
-            frame(anchor, turn),
-        );
+        let (first, second) = (frame(own_anchor, Rotation::IDENTITY), frame(anchor, turn));
         // Locked axes of a generic joint at the anchor; X is the free one of hinge and slider.
         let rigid = |mask: JointAxesMask| {
             GenericJointBuilder::new(mask)
@@ -230,7 +231,12 @@ impl Scene {
         0.5 * stiffness * stretch * stretch
     }
 
-    fn run(&mut self, steps: usize, mut step: impl FnMut(&mut PhysicsWorld), energy: impl Fn(&RigidBody) -> f64) -> Energies {
+    fn run(
+        &mut self,
+        steps: usize,
+        mut step: impl FnMut(&mut PhysicsWorld),
+        energy: impl Fn(&RigidBody) -> f64,
+    ) -> Energies {
         let total = |scene: &Self| {
             let bodies = scene.bodies.iter().map(|h| energy(&scene.world.bodies[*h]));
             bodies.sum::<f64>() + scene.spring_energy()
@@ -247,7 +253,9 @@ impl Scene {
             let now = total(self);
             let finite = self.bodies.iter().all(|h| {
                 let body = &self.world.bodies[*h];
-                body.linvel().is_finite() && body.angvel().is_finite() && body.rotation().is_finite()
+                body.linvel().is_finite()
+                    && body.angvel().is_finite()
+                    && body.rotation().is_finite()
                     && body.translation().is_finite()
             });
             energies.finite &= finite && now.is_finite() && self.world.quarantine().is_empty();
