@@ -12,7 +12,7 @@
 //! ```
 //!
 //! since drag only takes. In rapier's own terms the work of J is exact as long as the step does not turn the
-//! body far. Of joints without motors to bodies that stand still it is known better: they do none. Where the
+//! body far. Of joints without motors to bodies that stand still it is known better: they do none, and −J·v in the frame of a fluid that moves by v. Where the
 //! fluid changes its velocity it works, too; its work is in the motion that was integrated, ν':
 //!
 //! ```text
@@ -20,7 +20,7 @@
 //! ```
 //!
 //! A body that has more is slowed down, all velocities by the same factor, which keeps what a joint to the
-//! world demands. Errors that took energy are remembered up to a thousandth of it, so that those which come
+//! world demands. Errors that took energy are remembered up to 2·10⁻⁴ of it, so that those which come
 //! and go in turns damp nothing.
 
 use super::constraint_impulse::Learnt;
@@ -33,7 +33,7 @@ use rapier3d::math::{Real, Rotation, Vector};
 use rapier3d::na::Vector3;
 
 /// Share of its energy that a body may get back of what was lost.
-const RESERVE: Real = 1e-3;
+const RESERVE: Real = 2e-4;
 /// Relative excess that is left alone: rounding.
 const ROUNDING: Real = 1e-6;
 
@@ -76,7 +76,7 @@ pub(super) fn keep(
         integrated - start.impulse.dot(before + start.expected_change * 0.5)
     };
     let work = if start.workless {
-        0.0
+        -did.impulse.dot(start.fluid_velocity)
     } else {
         did.impulse.dot(mean) + did.moment.dot(mean_turn)
     };

@@ -4,7 +4,7 @@
 //! * where rapier takes a single substep, which moves the body by the velocity at the end;
 //! * where a body has solver iterations of its own, so that it takes another number of substeps;
 //! * where a body turns so far in a step, or changes its spin so much, that the series of rotation vectors
-//!   would miss the attitude by more than a degree.
+//!   would miss the attitude by more than a milliradian.
 //!
 //! Such a body is moved by its **mean** velocity, without force or torque, so that its pose is right
 //! whatever the number of substeps; the velocity at the end of the step is set after it. What a contact in
@@ -23,7 +23,7 @@ use std::f32::consts::{PI, TAU};
 /// Turn per step, rad, up to which the series is known to hold.
 const SLOW: Real = 1.5;
 /// Miss of the attitude, rad, that the next step can make up for.
-const MISS: Real = 0.002;
+const MISS: Real = 0.001;
 /// Relative difference of velocities that rounding can cause.
 const ROUNDING: Real = 2e-6;
 

@@ -54,7 +54,9 @@ pub(super) fn prepare(
     state.control.advance(touching, to.series, dt.into());
     let flight = &mut state.flight;
     if !touching {
-        flight.let_go();
+        if flight.constraint_time > 0.0 || flight.contact_steps > 0 {
+            flight.let_go();
+        }
     } else if normal.is_some() {
         flight.contact_steps = flight.contact_steps.saturating_add(1);
     } else {

@@ -88,7 +88,8 @@ fn write_body(
         held: NONE,
     };
     let (mut force, mut torque) = (force, torque);
-    let before = (*body.rotation(), body.linvel(), body.angvel());
+    let held = !input.free || input.jointed;
+    let before = held.then(|| (*body.rotation(), body.linvel(), body.angvel()));
     if input.free {
         if let Some(motion) = MeanMotion::of(input, output, to.context) {
             body.set_linvel(motion.mean_linear, false);
@@ -102,7 +103,7 @@ fn write_body(
             body.set_angvel(start_angular, false);
         }
     }
-    if !input.free || input.jointed {
+    if let Some(before) = before {
         let held = Held {
             shared,
             input,

