@@ -65,6 +65,18 @@ pub(super) struct FlightState {
     pub end_angular: Vector,
     /// Mass that rapier's solver uses, kg.
     pub solver_mass: Real,
+    /// Impulse of joints or friction that the last step found or counted on, N·s, world axes, and the time
+    /// that it took, s.
+    pub constraint_impulse: Vector,
+    pub constraint_time: Real,
+    /// Change of angular momentum that the joints caused in the last step, N·m·s, world axes.
+    pub constraint_moment: Vector,
+    /// Energy that rounding and the finite step have lost to a jointed body, J: what they may give back.
+    pub energy_reserve: Real,
+    /// Steps in a row in which the body was in contact.
+    pub contact_steps: u8,
+    /// Force of the fluid in the last step while something held the body, N.
+    pub fluid_force: Vector,
     /// Steps whose contacts have been corrected since the body last touched nothing.
     pub corrected_contacts: u8,
     /// Velocity of the fluid in the last step, m/s, with its fluctuation.
@@ -76,6 +88,18 @@ pub(super) struct FlightState {
     pub converts_torque: bool,
     /// Whether all this is from the step before.
     pub continues: bool,
+}
+
+impl FlightState {
+    /// Forgets what held the body.
+    pub fn let_go(&mut self) {
+        self.constraint_impulse = Vector::ZERO;
+        self.constraint_time = 0.0;
+        self.constraint_moment = Vector::ZERO;
+        self.fluid_force = Vector::ZERO;
+        self.energy_reserve = 0.0;
+        self.contact_steps = 0;
+    }
 }
 
 /// The motion of a body as the integrator carries it from step to step: plate axes, relative to the

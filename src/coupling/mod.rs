@@ -15,6 +15,7 @@ mod body_state;
 mod control;
 mod environment;
 mod immersion;
+mod principal_mass;
 mod rapier_sets;
 mod readout;
 mod registry;

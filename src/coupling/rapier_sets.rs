@@ -1,8 +1,8 @@
 //! What of a rapier world the coupling works on.
 
 use rapier3d::dynamics::{
-    ImpulseJointSet, IntegrationParameters, IslandManager, LockedAxes, MultibodyJointSet,
-    RigidBody, RigidBodyHandle, RigidBodySet,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBody,
+    RigidBodyHandle, RigidBodySet,
 };
 use rapier3d::geometry::{ColliderSet, NarrowPhase};
 use rapier3d::math::Vector;
@@ -44,11 +44,25 @@ impl<'a> RapierSets<'a> {
         }
     }
 
-    /// Whether joints or locked axes keep a body from moving freely.
-    pub(super) fn hold(&self, body: &RigidBody, handle: RigidBodyHandle) -> bool {
-        body.locked_axes() != LockedAxes::empty()
-            || (!self.impulse_joints.is_empty()
-                && self.impulse_joints.attached_joints(handle).next().is_some())
-            || self.multibody_joints.rigid_body_link(handle).is_some()
+    /// Whether joints hold a body.
+    pub(super) fn join(&self, handle: RigidBodyHandle) -> bool {
+        (!self.impulse_joints.is_empty()
+            && self.impulse_joints.attached_joints(handle).next().is_some())
+            || self.link(handle)
+    }
+
+    /// Whether all joints of a body are without motors, and hold it to bodies that stand still.
+    pub(super) fn join_without_work(&self, handle: RigidBodyHandle) -> bool {
+        let mut joints = self.impulse_joints.attached_joints(handle);
+        joints.all(|(first, second, _, joint)| {
+            let other = if first == handle { second } else { first };
+            joint.data.motor_axes.is_empty()
+                && self.bodies.get(other).is_some_and(RigidBody::is_fixed)
+        })
+    }
+
+    /// Whether a body is a link of a multibody.
+    pub(super) fn link(&self, handle: RigidBodyHandle) -> bool {
+        self.multibody_joints.rigid_body_link(handle).is_some()
     }
 }

@@ -22,7 +22,8 @@ pub(super) struct SavedProperties {
     colliders: Vec<(ColliderHandle, ColliderMass)>,
     additional: Option<RigidBodyAdditionalMassProps>,
     gyroscopic: bool,
-    fast_rotation: bool,
+    /// Whether the body's user let it turn by more than 45° per step.
+    pub fast_rotation: bool,
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,6 @@
 //! What equal bodies in the same fluid share at run time.
 
+use super::principal_mass::PrincipalMass;
 use crate::body::from_rapier::inertia;
 use crate::body::{DryMass, ImmersedBody};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
@@ -159,6 +160,8 @@ pub(super) struct SharedConstants {
     pub heavy_fluid: bool,
     /// Inverse of the 6×6 mass of body and fluid about the center of mass, body axes.
     pub inverse_mass: Matrix6<f64>,
+    /// 𝕄₁₁ by its principal axes.
+    pub principal_mass: PrincipalMass,
     /// Whether a push at the center of mass turns the body (A₁₂ ≠ 0).
     pub coupled: bool,
 }
@@ -180,6 +183,7 @@ impl SharedConstants {
         linear += Matrix3::from_diagonal_element(dry.mass);
         let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
         angular += dry.inertia;
+        let principal_mass = PrincipalMass::of(&whole.fixed_view::<3, 3>(0, 0).into_owned());
         let inverse_mass = whole.try_inverse().ok_or(Error::UnphysicalAddedMass)?;
         let coupling = constants.added_mass.coupling.norm();
         let turn = constants.axes.inverse().matrix()
@@ -235,6 +239,7 @@ impl SharedConstants {
             buoyancy_turns: arm.amax() > 1e-7,
             heavy_fluid: constants.added_mass.linear.symmetric_eigenvalues().max() > 0.5 * dry.mass,
             inverse_mass,
+            principal_mass,
             coupled: coupling > 1e-6 * mass * length,
             constants,
         })

@@ -2,6 +2,7 @@
 
 use super::constants::BodyConstants;
 use super::integrate::{Load, Motion, substep};
+use super::locked::Locks;
 use crate::body::{DryMass, ImmersedBody};
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
@@ -83,6 +84,7 @@ fn fly(case: &Case, design: Design, h: f64) -> Option<Vector3<f64>> {
         fluid_spin: Vector3::zeros(),
         turning: false,
         spinning: false,
+        locks: Locks::none(0.0),
     };
     let tilt = UnitQuaternion::from_euler_angles(0.3, 0.2, 0.0);
     let attitude = tilt * UnitQuaternion::from_rotation_matrix(&constants.axes);

@@ -4,6 +4,7 @@ use super::constants::BodyConstants;
 use super::forces::{ForceBreakdown, Instant};
 use super::integrate::{Load, Motion, advance, substeps};
 use super::integrator::Integrator;
+use super::locked::Locks;
 use crate::body::{DryMass, ImmersedBody};
 use crate::error::Error;
 use crate::flow::FlowSample;
@@ -163,6 +164,7 @@ impl FreeBody {
             fluid_spin: math::to_f64(flow.vorticity) * (0.5 * c.length),
             turning: true,
             spinning: true,
+            locks: Locks::none(0.0),
         };
         let mut motion = Motion {
             attitude: *self.attitude.quaternion(),

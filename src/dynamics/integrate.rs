@@ -41,6 +41,7 @@
 
 use super::constants::InertiaConstants;
 use super::integrator::Integrator;
+use super::locked::Locks;
 use crate::hydro::viscous::terms::{Evaluate, safe_inverse};
 use crate::math::Scalar;
 use crate::math::spatial::{
@@ -84,6 +85,8 @@ pub(crate) struct Load<T> {
     pub turning: bool,
     /// Whether the fluid's spin is not zero around some body.
     pub spinning: bool,
+    /// Axes along which nothing changes the velocity.
+    pub locks: Locks<T>,
 }
 
 /// What moves less than this many chords in a step may change its course as it likes.
@@ -178,6 +181,13 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
         let z = h * (pressure + slow);
         let theta = half.max(one - safe_inverse(z));
         delta = inertia.increment::<SYMMETRIC>(&terms, &start, &middle, &applied, h, theta);
+        if load.locks.any {
+            let (start, middle, push) = (&start, &middle, &applied);
+            let locks = &load.locks;
+            delta = locks.increment(
+                &delta, inertia, &terms, start, middle, push, &attitude, h, theta,
+            );
+        }
         middle = start.add_scaled(&delta, half);
     }
 
@@ -298,6 +308,7 @@ mod tests {
             fluid_spin: Vector3::zeros(),
             turning: false,
             spinning: false,
+            locks: Locks::none(0.0),
         };
         let before = motion.velocity;
         advance::<false, _, _>(inertia, &NotANumber, &load, &mut motion, 0.01, 1.0, 1, 1);

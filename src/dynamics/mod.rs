@@ -8,6 +8,7 @@ mod free_body;
 pub(crate) mod integrate;
 mod integrator;
 mod kirchhoff;
+pub(crate) mod locked;
 mod symmetric;
 
 pub use forces::{ForceAndTorque, ForceBreakdown};

@@ -7,6 +7,7 @@ mod equivalence;
 mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod fuzz;
+mod held;
 mod impact;
 mod induced_drag;
 mod kirchhoff;

@@ -48,7 +48,7 @@ pub(super) fn find_close(
 }
 
 /// Visits the contacts of a body as the narrow phase last saw them.
-fn for_each_pair<'a>(
+pub(super) fn for_each_pair<'a>(
     body: &RigidBody,
     narrow_phase: &'a NarrowPhase,
     mut visit: impl FnMut(ColliderHandle, &'a ContactPair),

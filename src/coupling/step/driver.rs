@@ -34,10 +34,12 @@ pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierS
     }
     let context = StepContext {
         dt: parameters.dt,
+        substeps: parameters.num_solver_iterations.max(1),
         scheme: SubstepScheme::new(parameters.dt, parameters.num_solver_iterations),
         gravity: sets.gravity,
         integrator: parts.integrator,
     };
+    parts.workspace.forget_bodies();
     let heavy_fluid = parts.constants.heavy_fluid;
     contact_mass::find_close(
         parts.registry,
@@ -114,13 +116,15 @@ fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, contex
     };
     integrate(&batch.inputs, &batch.flows, &mut outputs, route, batched);
     batch.outputs = outputs;
-    write_back::write_back(
-        batch,
-        parts.constants,
-        parts.registry,
-        sets,
-        &mut workspace.saved_forces,
-    );
+    let mut to = write_back::Destination {
+        constants: parts.constants,
+        registry: parts.registry,
+        context,
+        saved_forces: &mut workspace.saved_forces,
+        held: &mut workspace.held,
+        moved_by_mean: &mut workspace.moved_by_mean,
+    };
+    write_back::write_back(batch, sets, &mut to);
     batch.clear();
 }
 
@@ -136,7 +140,13 @@ pub(in crate::coupling) fn give_back(parts: &mut StepParts, sets: &mut RapierSet
 /// Gives users' forces back and corrects the velocities of bodies in contact.
 pub(in crate::coupling) fn after_step(parts: &mut StepParts, sets: &mut RapierSets) {
     for saved in &parts.workspace.saved_forces {
-        write_back::finish(saved, parts.constants, parts.registry, sets);
+        write_back::finish(
+            saved,
+            parts.workspace,
+            parts.constants,
+            parts.registry,
+            sets,
+        );
     }
-    parts.workspace.saved_forces.clear();
+    parts.workspace.forget_bodies();
 }

@@ -1,10 +1,12 @@
 //! One step of the bodies that fit into the machine's registers side by side.
 
+use super::locked_axes;
 use super::substep_matching::Target;
 use super::workspace::{Batched, Disturbance, SeenFlow, StepInput, StepOutput};
 use crate::coupling::body_state::{IntegratorState, NONE};
 use crate::coupling::shared_constants::StepConstants;
 use crate::dynamics::integrate::{Load, Motion, advance, substeps};
+use crate::dynamics::locked::Locks;
 use crate::hydro::viscous::force_factors::Factored;
 use crate::hydro::viscous::{ForceFactors, PreparedLaw};
 use crate::math::spatial::{Twist, rotate, rotate_back, select_lt};
@@ -116,6 +118,7 @@ impl<S: Simd> LaneGroup<'_, S> {
             fluid_spin: nothing,
             turning: self.buoyancy_turns || self.bodies.iter().any(|input| input.has_torque),
             spinning: false,
+            locks: Locks::none(zero),
         };
         if self.bodies.iter().any(|input| input.disturbance != NONE) {
             load.force += self.disturbances(|d| d.force) * scale.per_mass;
@@ -144,6 +147,20 @@ impl<S: Simd> LaneGroup<'_, S> {
             let response = flow_response.to(&rotate_back(&attitude, &change));
             motion.velocity.linear += response.linear - rotate_back(&attitude, &frame);
             motion.velocity.angular += response.angular;
+        }
+        if self.bodies.iter().any(|input| !input.locks.is_empty()) {
+            let linear = vector3(self.inputs(|input| locked_axes::linear(input.locks)));
+            let angular = vector3(self.inputs(|input| locked_axes::angular(input.locks)));
+            let velocity = &motion.velocity;
+            load.locks = Locks {
+                any: true,
+                linear,
+                angular,
+                velocity: Twist {
+                    linear: rotate(&attitude, &velocity.linear).component_mul(&linear),
+                    angular: rotate(&attitude, &velocity.angular).component_mul(&angular),
+                },
+            };
         }
         let dt = constant(context.dt);
         let count = substeps(inertia, &motion, &load, dt, &context.integrator);

@@ -9,10 +9,16 @@
 //!
 //! [`Route`]: super::shared_constants::Route
 
+mod constraint_impulse;
 mod contact_mass;
 pub(super) mod driver;
+mod energy_budget;
+mod friction;
+mod held_motion;
 mod integrate;
 mod lane_group;
+mod locked_axes;
+mod mean_motion;
 mod prepare;
 mod sample_fluid;
 mod substep_matching;

@@ -1,7 +1,7 @@
 //! The first stage: which bodies a step moves, and what it has to know of them.
 
-use super::contact_mass;
 use super::workspace::{Batch, CloseBodies, Disturbance, SeenFlow, StepContext, StepInput};
+use super::{constraint_impulse, contact_mass, friction};
 use crate::coupling::body_state::{FlightState, IntegratorState, NONE};
 use crate::coupling::control::SeriesTable;
 use crate::coupling::environment::Environment;
@@ -9,7 +9,7 @@ use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::{ConstantsTable, Route};
 use crate::math::row;
-use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
+use rapier3d::dynamics::{LockedAxes, RigidBody, RigidBodyHandle};
 use rapier3d::math::{Real, Rotation, Vector};
 
 /// Relative difference of velocities that rapier's own arithmetic in f32 can cause.
@@ -46,18 +46,42 @@ pub(super) fn prepare(
     } else {
         None
     };
-    let held = sets.hold(body, handle);
-    let touching = normal.is_some() || held;
-    let dt = to.context.dt.into();
-    state.control.advance(touching, to.series, dt);
+    let jointed = sets.join(handle);
+    let locks = body.locked_axes();
+    let touching = normal.is_some() || jointed || locks != LockedAxes::empty();
+    let dt = to.context.dt;
+    state.control.advance(touching, to.series, dt.into());
+    let flight = &mut state.flight;
+    if !touching {
+        if flight.constraint_time > 0.0 || flight.contact_steps > 0 {
+            flight.let_go();
+        }
+    } else if normal.is_some() {
+        flight.contact_steps = flight.contact_steps.saturating_add(1);
+    } else {
+        flight.contact_steps = 0;
+    }
     let wanted_mass = match normal {
         Some(normal) => contact_mass::mass_along(shared, body, normal) as Real,
+        None if jointed => {
+            constraint_impulse::joint_mass(shared, body, flight.constraint_impulse) as Real
+        }
         None => shared.constants.dry.mass as Real,
     };
-    let flight = &mut state.flight;
     let new_mass = (wanted_mass - flight.solver_mass).abs() > MASS_CHANGE * wanted_mass;
-    // A body with solver iterations of its own is written back like one in contact.
-    let free = !touching && body.additional_solver_iterations() == 0;
+    let solver_mass = if new_mass {
+        wanted_mass
+    } else {
+        flight.solver_mass
+    };
+    // What hangs on a slack rope flies.
+    let linked = jointed && sets.link(handle);
+    let slack = jointed
+        && !linked
+        && normal.is_none()
+        && locks.is_empty()
+        && constraint_impulse::is_slack(shared, body, flight);
+    let free = !touching || slack;
 
     let rapier_attitude = *body.rotation() * shared.axes;
     let continues = free && continues(flight, body, rapier_attitude);
@@ -72,6 +96,16 @@ pub(super) fn prepare(
         flight.motion = IntegratorState::at(rapier_attitude);
         (linear, angular)
     };
+    let impulse = match normal {
+        _ if jointed => constraint_impulse::of_step(flight, body, linked, dt),
+        Some(normal) => {
+            let expected = friction::expected(shared, body, flight, normal, solver_mass, sets);
+            flight.constraint_impulse = expected;
+            flight.constraint_time = dt;
+            expected
+        }
+        None => Vector::ZERO,
+    };
     let undisturbed =
         continues && [change_linear, change_angular, force, torque] == [Vector::ZERO; 4];
 
@@ -82,8 +116,9 @@ pub(super) fn prepare(
         batch.disturbances.push(Disturbance {
             linear: row(change_linear),
             angular: row(change_angular),
-            force: row(force),
+            force: row(force + impulse / dt),
             torque: row(torque),
+            impulse: row(impulse),
         });
         batch.disturbances.len() as u32 - 1
     };
@@ -100,12 +135,14 @@ pub(super) fn prepare(
         constants: state.constants,
         free,
         may_sleep: touching,
+        in_contact: normal.is_some(),
+        jointed,
+        linked,
+        workless: jointed && sets.join_without_work(handle),
+        locks,
+        own_substeps: body.additional_solver_iterations() as u32,
         continues,
-        solver_mass: if new_mass {
-            wanted_mass
-        } else {
-            flight.solver_mass
-        },
+        solver_mass,
         new_mass,
         factors: state.control.factors,
         gravity_scale: body.gravity_scale(),

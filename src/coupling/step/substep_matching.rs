@@ -26,6 +26,7 @@
 
 use crate::math::Scalar;
 use crate::math::spatial::{conjugate, cross, dot, quaternion_product, select_lt};
+use rapier3d::math::Vector;
 use rapier3d::na::{Quaternion, Vector3};
 
 /// How rapier divides a step, and the coefficients of the series that follow from it.
@@ -60,6 +61,17 @@ impl SubstepScheme {
             mu: shrunk * (1.0 - 9.0 / n2) / 720.0,
             lambda: shrunk * (1.0 - 2.0 / (3.0 * n2)) / 240.0,
             cayley: 1.0 / (12.0 * n2),
+        }
+    }
+}
+
+impl SubstepScheme {
+    /// The mean velocity of a free body that was to start with `start` and reach `end`.
+    pub fn mean(&self, start: Vector, end: Vector) -> Vector {
+        if self.split {
+            end - (end - start) / self.gain as f32
+        } else {
+            start
         }
     }
 }
@@ -104,20 +116,26 @@ impl<T: Scalar> Target<'_, T> {
         // A body in contact gets the whole change by the force.
         let linear = self.end_linear - self.linear;
         let angular = self.end_angular - self.angular;
+        let mean = self.displacement * per_dt;
         let (free_linear, free_angular) = if scheme.split {
-            let mean = self.displacement * per_dt;
             let spin = self.mean_spin();
             (
                 (self.end_linear - mean) * gain,
                 (self.end_angular - spin) * gain,
             )
         } else {
-            (linear, angular)
+            let nothing = Vector3::repeat(constant(0.0));
+            (nothing, nothing)
         };
-        let (start_linear, start_angular) = (
-            self.end_linear - free_linear,
-            self.end_angular - free_angular,
-        );
+        let (start_linear, start_angular) = if scheme.split {
+            (
+                self.end_linear - free_linear,
+                self.end_angular - free_angular,
+            )
+        } else {
+            // What the mean alone leads to is the matter of another file.
+            (mean, self.end_angular)
+        };
         // In the lanes of touching bodies `free` is 0 and below this.
         let limit = constant(0.5);
         let touching = |value, other| select_lt(value, self.free, limit, other);
@@ -198,7 +216,7 @@ fn rotation_vector<T: Scalar>(q: &Quaternion<T>) -> Vector3<T> {
 mod tests {
     use super::*;
     use crate::math::spatial::rotate;
-    use rapier3d::math::{Rotation, Vector};
+    use rapier3d::math::Rotation;
 
     fn to_nalgebra(v: Vector) -> Vector3<f32> {
         Vector3::new(v.x, v.y, v.z)

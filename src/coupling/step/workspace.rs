@@ -1,5 +1,6 @@
 //! What passes between the stages of a step, and the memory for it, which is reused from step to step.
 
+use super::mean_motion::MeanMotion;
 use super::substep_matching::SubstepScheme;
 use crate::coupling::body_state::{BodyState, FlightState, IntegratorState, TurbulenceMemory};
 use crate::coupling::shared_constants::{ConstantsTable, Route};
@@ -7,16 +8,37 @@ use crate::dynamics::Integrator;
 use crate::flow::FlowSample;
 use crate::hydro::viscous::ForceFactors;
 use crate::math::{Row, row, vector};
-use rapier3d::dynamics::RigidBodyHandle;
-use rapier3d::math::{Real, Vector};
+use rapier3d::dynamics::{LockedAxes, RigidBodyHandle};
+use rapier3d::math::{Real, Rotation, Vector};
 
 /// How a step is taken.
 #[derive(Clone, Copy)]
 pub(in crate::coupling) struct StepContext {
     pub dt: Real,
+    /// Substeps of rapier's.
+    pub substeps: usize,
     pub scheme: SubstepScheme,
     pub gravity: Vector,
     pub integrator: Integrator,
+}
+
+/// How rapier divides the step of a body.
+#[derive(Clone, Copy)]
+pub(in crate::coupling) struct Substeps {
+    pub count: usize,
+    /// Length of each, s.
+    pub length: Real,
+}
+
+impl StepContext {
+    /// The substeps that a body takes.
+    pub fn substeps_of(&self, input: &StepInput) -> Substeps {
+        let count = self.substeps + input.own_substeps as usize;
+        Substeps {
+            count,
+            length: self.dt / count as Real,
+        }
+    }
 }
 
 /// One awake body during one step. World axes unless said otherwise. The rows are vectors, filled up with
@@ -31,6 +53,16 @@ pub(in crate::coupling) struct StepInput {
     pub free: bool,
     /// Is in contact or held, so that rapier may let it sleep.
     pub may_sleep: bool,
+    /// Is in contact; is held by joints.
+    pub in_contact: bool,
+    pub jointed: bool,
+    /// Is a link of a multibody, whose velocity cannot be set.
+    pub linked: bool,
+    /// Whether its joints can do no work.
+    pub workless: bool,
+    pub locks: LockedAxes,
+    /// Substeps that rapier takes for it beyond those of the others.
+    pub own_substeps: u32,
     /// Goes on with the velocity relative to the fluid that was integrated.
     pub continues: bool,
     /// Mass that rapier's solver uses, kg; `new_mass` if rapier has to be told.
@@ -56,9 +88,11 @@ pub(in crate::coupling) struct Disturbance {
     /// its velocity. m/s and rad/s.
     pub linear: Row,
     pub angular: Row,
-    /// User's force, N, and torque, N·m.
+    /// User's force, with that of the constraints as far as the step counts on it, N, and torque, N·m.
     pub force: Row,
     pub torque: Row,
+    /// Impulse of the constraints that the step counts on, N·s.
+    pub impulse: Row,
 }
 
 impl Disturbance {
@@ -67,6 +101,7 @@ impl Disturbance {
         angular: [0.0; 4],
         force: [0.0; 4],
         torque: [0.0; 4],
+        impulse: [0.0; 4],
     };
 }
 
@@ -136,6 +171,40 @@ pub(in crate::coupling) struct SavedForces {
     pub torque: Vector,
     /// Whether the body is in contact or held.
     pub touching: bool,
+    /// Index in `moved_by_mean` of a body that gets its velocity after the step, `NONE` for others.
+    pub mean_motion: u32,
+    /// Index in `held` of a body that is held but not in contact, `NONE` for others.
+    pub held: u32,
+}
+
+/// A held body before rapier's step. World axes unless said otherwise.
+#[derive(Clone, Copy)]
+pub(in crate::coupling) struct HeldStart {
+    pub attitude: Rotation,
+    pub linear: Vector,
+    pub angular: Vector,
+    /// Changes of the velocities that rapier will cause if the constraints do as expected.
+    pub expected_change: Vector,
+    pub expected_turn: Vector,
+    /// The impulse that is expected of them, N·s.
+    pub impulse: Vector,
+    /// Velocities that were integrated, plate axes, relative to the fluid.
+    pub own_linear: Vector,
+    pub own_angular: Vector,
+    pub fluid_velocity: Vector,
+    pub locks: LockedAxes,
+    pub jointed: bool,
+    /// Whether it flies freely all the same, its joints being slack.
+    pub flies: bool,
+    /// Weight, buoyancy and user's force, N, and their torque, N·m.
+    pub load_force: Vector,
+    pub load_torque: Vector,
+    /// Whether the fluid's velocity is that of the last step.
+    pub steady: bool,
+    /// Whether its joints can do no work.
+    pub workless: bool,
+    /// Whether its velocity may be set: rapier overwrites those of multibodies' links.
+    pub settable: bool,
 }
 
 /// Bodies of one route that are moved together.
@@ -223,7 +292,18 @@ pub(in crate::coupling) struct Workspace {
     pub close: CloseBodies,
     /// What the bodies had before the step: filled by `before_step`, emptied by `after_step`.
     pub saved_forces: Vec<SavedForces>,
+    pub held: Vec<HeldStart>,
+    pub moved_by_mean: Vec<MeanMotion>,
     pub samples: Vec<FlowSample>,
     /// Bodies at which the flow was no number in this step.
     pub bad_flows: Vec<RigidBodyHandle>,
+}
+
+impl Workspace {
+    /// Forgets what the bodies had before the step.
+    pub fn forget_bodies(&mut self) {
+        self.saved_forces.clear();
+        self.held.clear();
+        self.moved_by_mean.clear();
+    }
 }

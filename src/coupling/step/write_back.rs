@@ -1,29 +1,44 @@
 //! Writes to rapier what the step shall do to each body, and gives back after it what users had set.
 
-use super::contact_mass;
-use super::workspace::{Batch, SavedForces, StepInput, StepOutput};
+use super::held_motion;
+use super::mean_motion::MeanMotion;
+use super::workspace::{
+    Batch, Disturbance, HeldStart, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
+    Workspace,
+};
+use super::{constraint_impulse, contact_mass, energy_budget, locked_axes};
+use crate::body::from_rapier::inertia;
+use crate::coupling::body_state::{FlightState, NONE};
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
-use crate::coupling::shared_constants::ConstantsTable;
-use crate::math::vector;
+use crate::coupling::shared_constants::{ConstantsTable, SharedConstants};
+use crate::math::{Row, to_f64, to_quaternion, to_real, vector};
 use rapier3d::dynamics::{RigidBody, RigidBodySet};
-use rapier3d::math::Vector;
+use rapier3d::math::{Rotation, Vector};
+use rapier3d::na::Matrix3;
 
 /// Steps of a contact that count as its impact: what the contact did is corrected in these. A velocity
 /// that is set after the step is new to the solver; in a pile of leaves such corrections kept up 2 cm/s
 /// forever, where without them it comes to rest below 1 mm/s.
 const IMPACT: u8 = 3;
 
+/// Turn of a multibody's link in a step, rad, from which on the fluid may only brake it.
+const FAST_LINK: f32 = 0.5;
+
+/// What is written besides rapier's sets.
+pub(super) struct Destination<'a> {
+    pub constants: &'a ConstantsTable,
+    pub registry: &'a mut Registry,
+    pub context: &'a StepContext,
+    pub saved_forces: &'a mut Vec<SavedForces>,
+    pub held: &'a mut Vec<HeldStart>,
+    pub moved_by_mean: &'a mut Vec<MeanMotion>,
+}
+
 /// Writes the outputs of a batch, and keeps what must be given back.
-pub(super) fn write_back(
-    batch: &Batch,
-    constants: &ConstantsTable,
-    registry: &mut Registry,
-    sets: &mut RapierSets,
-    saved_forces: &mut Vec<SavedForces>,
-) {
+pub(super) fn write_back(batch: &Batch, sets: &mut RapierSets, to: &mut Destination) {
     for (i, (input, output)) in batch.inputs.iter().zip(&batch.outputs).enumerate() {
-        if let Some(state) = registry.at_mut(input.state as usize) {
+        if let Some(state) = to.registry.at_mut(input.state as usize) {
             if let Some(flow) = batch.flows.get(i) {
                 state.flight.fluid_velocity = vector(flow.velocity);
             }
@@ -31,8 +46,11 @@ pub(super) fn write_back(
                 state.flight.turbulence = *turbulence;
             }
         }
-        if let Some(saved) = write_body(input, output, constants, registry, sets) {
-            saved_forces.push(saved);
+        let still = |flow: &SeenFlow| flow.change == Row::default();
+        let steady = batch.flows.get(i).is_none_or(still);
+        let disturbance = batch.disturbances.get(input.disturbance as usize);
+        if let Some(saved) = write_body(input, output, disturbance, steady, sets, to) {
+            to.saved_forces.push(saved);
         }
     }
 }
@@ -41,9 +59,10 @@ pub(super) fn write_back(
 fn write_body(
     input: &StepInput,
     output: &StepOutput,
-    constants: &ConstantsTable,
-    registry: &mut Registry,
+    disturbance: Option<&Disturbance>,
+    steady: bool,
     sets: &mut RapierSets,
+    to: &mut Destination,
 ) -> Option<SavedForces> {
     let body = sets.bodies.get_mut(input.handle)?;
     let [force, torque, start_linear, start_angular] = [
@@ -56,31 +75,74 @@ fn write_body(
     if !(force + torque + start_linear + start_angular).is_finite() {
         return None;
     }
-    let state = registry.at_mut(input.state as usize)?;
-    let shared = constants.get(input.constants)?;
-    let torque = if state.flight.converts_torque {
-        let rapier = &body.mass_properties().local_mprops;
-        shared.torque_for(rapier, *body.rotation(), torque)
-    } else {
-        torque
-    };
-    let saved = SavedForces {
+    let state = to.registry.at_mut(input.state as usize)?;
+    let shared = to.constants.get(input.constants)?;
+    let flight = &mut state.flight;
+    let mut saved = SavedForces {
         handle: input.handle,
         state: input.state,
         constants: input.constants,
         force: body.user_force(),
         torque: body.user_torque(),
         touching: input.may_sleep,
+        mean_motion: NONE,
+        held: NONE,
     };
+    let (mut force, mut torque) = (force, torque);
+    let held = !input.free || input.jointed;
+    let before = held.then(|| (*body.rotation(), body.linvel(), body.angvel()));
     if input.free {
-        body.set_linvel(start_linear, false);
-        body.set_angvel(start_angular, false);
+        if let Some(motion) = MeanMotion::of(input, output, to.context) {
+            body.set_linvel(motion.mean_linear, false);
+            body.set_angvel(motion.mean_angular, false);
+            force = to.context.gravity * (-input.gravity_scale * input.solver_mass);
+            torque = Vector::ZERO;
+            saved.mean_motion = to.moved_by_mean.len() as u32;
+            to.moved_by_mean.push(motion);
+        } else {
+            body.set_linvel(start_linear, false);
+            body.set_angvel(start_angular, false);
+        }
+    }
+    if let Some(before) = before {
+        let held = Held {
+            shared,
+            input,
+            output,
+            impulse: disturbance.map_or(Vector::ZERO, |d| vector(d.impulse)),
+            user_force: saved.force,
+            user_torque: saved.torque,
+            steady,
+            context: to.context,
+        };
+        let mut start = held.start(before, flight, force);
+        if !input.free {
+            (force, torque) = held.forces(body, flight, &mut start, force, torque);
+        }
+        if input.jointed || (!input.locks.is_empty() && !input.in_contact) {
+            saved.held = to.held.len() as u32;
+            to.held.push(start);
+        }
+    }
+    if flight.converts_torque && input.locks.is_empty() {
+        let rapier = &body.mass_properties().local_mprops;
+        torque = shared.torque_for(rapier, *body.rotation(), torque);
     }
     replace_forces(body, force, torque);
     if !input.may_sleep {
         // Drifting slowly through water is not resting.
         body.activation_mut().time_since_can_sleep = 0.0;
-        state.flight.corrected_contacts = 0;
+        flight.corrected_contacts = 0;
+    }
+    // Impulses at a lever can spin a thin body up without bounds: rapier's own limit stays on.
+    let fast = input.free
+        || !input.jointed
+        || state
+            .saved
+            .as_ref()
+            .is_some_and(|saved| saved.fast_rotation);
+    if fast != body.is_fast_rotation_allowed() {
+        body.set_allow_fast_rotation(fast);
     }
     if input.new_mass
         && let Some(saved) = &state.saved
@@ -89,17 +151,163 @@ fn write_body(
         saved.set_mass(shared, mass, input.handle, sets.bodies, sets.colliders);
         state.flight.solver_mass = input.solver_mass;
     }
-    state.flight.motion = output.motion;
-    state.flight.end_linear = vector(output.end_linear);
-    state.flight.end_angular = vector(output.end_angular);
-    state.flight.continues = true;
+    let flight = &mut state.flight;
+    flight.motion = output.motion;
+    flight.end_linear = vector(output.end_linear);
+    flight.end_angular = vector(output.end_angular);
+    flight.continues = true;
     Some(saved)
+}
+
+/// A body that something holds, in the step that is written.
+struct Held<'a> {
+    shared: &'a SharedConstants,
+    input: &'a StepInput,
+    output: &'a StepOutput,
+    /// What the constraints are expected to do, N·s.
+    impulse: Vector,
+    user_force: Vector,
+    user_torque: Vector,
+    /// Whether the fluid's velocity is that of the last step.
+    steady: bool,
+    context: &'a StepContext,
+}
+
+impl Held<'_> {
+    /// The body before the step. `force` is that which leads to the velocity that was integrated.
+    fn start(
+        &self,
+        (attitude, linear, angular): (Rotation, Vector, Vector),
+        flight: &FlightState,
+        force: Vector,
+    ) -> HeldStart {
+        let (input, output) = (self.input, self.output);
+        let gravity = self.context.gravity * input.gravity_scale;
+        let constants = &self.shared.constants;
+        let (dry_mass, displaced) = (constants.dry.mass, constants.displaced_mass);
+        let arm = attitude * to_real(constants.buoyancy_arm);
+        let mut start = HeldStart {
+            attitude,
+            linear,
+            angular,
+            expected_change: (force / input.solver_mass + gravity) * self.context.dt,
+            expected_turn: Vector::ZERO,
+            impulse: self.impulse,
+            own_linear: output.motion.linear,
+            own_angular: output.motion.angular * self.shared.step.inertia.per_length,
+            fluid_velocity: flight.fluid_velocity,
+            locks: input.locks,
+            jointed: input.jointed,
+            flies: input.free,
+            load_force: self.user_force + gravity * (dry_mass - displaced) as f32,
+            load_torque: self.user_torque + arm.cross(gravity * -displaced as f32),
+            steady: self.steady,
+            workless: input.workless,
+            settable: !input.linked,
+        };
+        if input.free {
+            start.expected_change = vector(output.end_linear) - start.linear;
+            start.expected_turn = vector(output.end_angular) - start.angular;
+        }
+        start
+    }
+
+    /// The force and the torque to hand over. `force` and `torque` are those that lead to the velocities
+    /// that were integrated.
+    fn forces(
+        &self,
+        body: &RigidBody,
+        flight: &mut FlightState,
+        start: &mut HeldStart,
+        force: Vector,
+        torque: Vector,
+    ) -> (Vector, Vector) {
+        let (input, shared, context) = (self.input, self.shared, self.context);
+        let dt = context.dt;
+        let gravity = context.gravity * input.gravity_scale;
+        let (linear, angular, attitude) = (start.linear, start.angular, start.attitude);
+        let (mut force, mut torque) = (force, torque);
+        if input.linked {
+            // Rapier adds the gyroscopic torque of links by itself.
+            let end = Rotation::from_array(self.output.motion.attitude) * shared.axes.inverse();
+            let change = held_motion::turned(shared, end, vector(self.output.end_angular))
+                - held_motion::turned(shared, attitude, angular);
+            torque = change / dt;
+            (force, torque) = self.tamed(start, force, torque);
+        } else if !input.in_contact || !input.locks.is_empty() {
+            let plate = Rotation::from_array(input.rapier_attitude);
+            let substeps = context.substeps_of(input);
+            let guess = vector(self.output.end_angular);
+            let (end_linear, end_angular) =
+                held_motion::end_velocities(shared, plate, start, guess, substeps);
+            start.expected_change = end_linear - linear;
+            start.expected_turn = end_angular - angular;
+            force = (start.expected_change / dt - gravity) * input.solver_mass;
+            let acceleration = start.expected_turn / dt;
+            torque = if input.locks.is_empty() {
+                held_motion::turned(shared, attitude, acceleration)
+            } else {
+                let tensor = self.tensor(body, flight);
+                let acceleration = to_f64(acceleration);
+                to_real(locked_axes::torque_for(&tensor, input.locks, acceleration))
+            };
+        }
+        if input.in_contact && !input.jointed {
+            // What the fluid does, as far as the mass of its own tells.
+            let own = body.user_force() + gravity * shared.constants.dry.mass as f32;
+            let masses = &shared.principal_mass;
+            let change = masses.scale(attitude, start.expected_change, |mass| mass);
+            flight.fluid_force = (change - self.impulse) / dt - own;
+        }
+        force -= self.impulse / dt;
+        (force, torque)
+    }
+
+    /// Force and torque of a link that turns so far in a step that they are out of date within it: as much
+    /// of the fluid's share as takes energy. A link's velocity cannot be set right after the step.
+    fn tamed(&self, start: &HeldStart, force: Vector, torque: Vector) -> (Vector, Vector) {
+        let dt = self.context.dt;
+        let end = vector(self.output.end_angular);
+        if start.angular.length().max(end.length()) * dt < FAST_LINK {
+            return (force, torque);
+        }
+        let (fluid_force, fluid_torque) = (force - self.user_force, torque - self.user_torque);
+        let relative = start.linear - start.fluid_velocity;
+        let power = fluid_force.dot(relative) + fluid_torque.dot(start.angular);
+        // τ·I⁻¹τ, at most.
+        let inertia = &self.shared.step.scales.rapier_inertia;
+        let least = inertia.m11.min(inertia.m22).min(inertia.m33);
+        let pushed = fluid_force.length_squared() / self.input.solver_mass;
+        let turned = fluid_torque.length_squared() / least;
+        let whole = 0.5 * dt * (pushed + turned);
+        let share = if whole > 0.0 {
+            (-power / whole).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        (
+            self.user_force + fluid_force * share,
+            self.user_torque + fluid_torque * share,
+        )
+    }
+
+    /// Rapier's tensor of inertia, world axes.
+    fn tensor(&self, body: &RigidBody, flight: &FlightState) -> Matrix3<f64> {
+        let own = if flight.converts_torque {
+            inertia(&body.mass_properties().local_mprops)
+        } else {
+            self.shared.wet(1.0).inertia
+        };
+        let rotation = to_quaternion(*body.rotation()).to_rotation_matrix();
+        rotation.matrix() * own * rotation.matrix().transpose()
+    }
 }
 
 /// After the step: gives a body's forces back to the user, and corrects its velocity if it has just met
 /// something.
 pub(super) fn finish(
     saved: &SavedForces,
+    workspace: &Workspace,
     constants: &ConstantsTable,
     registry: &mut Registry,
     sets: &mut RapierSets,
@@ -107,18 +315,36 @@ pub(super) fn finish(
     let Some(body) = give_back(saved, sets.bodies) else {
         return;
     };
+    if let Some(motion) = workspace.moved_by_mean.get(saved.mean_motion as usize) {
+        motion.finish(body);
+    }
     let Some(state) = registry.at_mut(saved.state as usize) else {
         return;
     };
     // A user may have changed the set since the step began: the body may have gone, or have another
     // description or fluid. Its contacts are then left as rapier solved them.
-    let unchanged = state.handle == saved.handle && state.constants == saved.constants;
-    if !unchanged || !saved.touching || state.flight.corrected_contacts >= IMPACT {
+    if state.handle != saved.handle || state.constants != saved.constants {
         return;
     }
     let Some(shared) = constants.get(state.constants) else {
         return;
     };
+    if let Some(start) = workspace.held.get(saved.held as usize) {
+        if start.jointed {
+            let dt = sets.integration_parameters.dt;
+            let did = constraint_impulse::learn(shared, body, &mut state.flight, start, dt);
+            // A body that flew the whole step has the energy that was integrated.
+            let flew = start.flies && did.impulse == Vector::ZERO;
+            if start.settable && !flew {
+                energy_budget::keep(shared, body, &mut state.flight, start, &did, dt);
+            }
+        } else {
+            held_motion::settle(shared, body, start);
+        }
+    }
+    if !saved.touching || state.flight.corrected_contacts >= IMPACT {
+        return;
+    }
     let mass = state.flight.solver_mass.into();
     if let Some((linear, angular)) = contact_mass::correction(shared, body, sets.narrow_phase, mass)
         && (linear + angular).is_finite()

@@ -1,0 +1,140 @@
+//! The impulse of the constraints (joints, friction) that hold a body, and the mass that they feel.
+//!
+//! Rapier's solver knows a scalar mass m_s; the body and the fluid that it drags along have the tensor 𝕄.
+//! A body to which the force `f = m_s Δv_free/dt` is handed over, with Δv_free its change of velocity if
+//! nothing held it, moves rightly if nothing does. What holds it, however, is met by m_s Δv_free, where
+//! the fluid's force over dt is 𝕄 Δv_free: every force reaches the constraint scaled by m_s/𝕄, steady
+//! drag as well, at any dt.
+//!
+//! The constraint gives an impulse J in a step, `m_s Δv = f dt + J`, so that J is known after the step.
+//! It changes little from step to step, and the next step counts on it:
+//!
+//! ```text
+//! 𝕄 Δv_pred = F(ν) dt + Ĵ          (the integrator, implicitly)
+//! f = (m_s Δv_pred − Ĵ)/dt          (what rapier is given)
+//! J = Ĵ + m_s (Δv − Δv_pred)        (what the constraint did)
+//! ```
+//!
+//! * Where the body is held, Δv = 0, J is `Ĵ − m_s Δv_pred = Ĵ(1 − m_s/𝕄) − (m_s/𝕄) F dt`: iterated with
+//!   Ĵ := J it converges to −F dt, the true reaction, at any dt. The error shrinks by 1 − m_s/𝕄 per step,
+//!   which is in [0, 1) where m_s ≤ 𝕄.
+//! * Where m_s > 𝕄 it would overshoot, and diverge above 2𝕄; there 𝕄/m_s of the surprise J − Ĵ is learnt.
+//!   By principal masses, `Ĵ' = Ĵ + min(1, 𝕄/m_s)(J − Ĵ)`.
+//! * A body that is not held in a direction has Δv = Δv_pred there and keeps Ĵ = 0.
+//! * With `m_s = 1/(d·𝕄⁻¹d)` along the direction d of Ĵ, the impulse that the constraint finds at once is
+//!   the right one along d.
+//!
+//! A constraint that **opens** (joint removed, rope gone slack, a bounce that is over) leaves the body
+//! with Δv = (𝕄⁻¹ − 1/m_s)Ĵ too much, for the force took Ĵ off through m_s and the integrator put it on
+//! through 𝕄. It is taken back after the step, `v += (𝕄⁻¹ − 1/m_s)(J − Ĵ)`.
+//!
+//! Only linear impulses are treated so; the same for moments pumps energy into light bodies at levers.
+
+use super::workspace::HeldStart;
+use super::{contact_mass, held_motion, locked_axes};
+use crate::coupling::body_state::FlightState;
+use crate::coupling::shared_constants::SharedConstants;
+use crate::math::vector;
+use rapier3d::dynamics::RigidBody;
+use rapier3d::math::{Real, Vector};
+
+/// Part of a body's momentum that the impulse of a slack joint does not reach.
+const SLACK: Real = 1e-5;
+/// Relative change of a velocity that rounding can cause: no surprise.
+const ROUNDING: Real = 1e-6;
+/// Part of the expected impulse below which a constraint counts as open.
+const OPEN: Real = 0.25;
+/// Turn in a step, rad, after which the last impulse says nothing about the next.
+const FAR: Real = 1.0;
+/// The mass that a jointed body shows rapier: along the last impulse of its joints; the largest until that
+/// is known, so that the first impulse is that of the whole fluid where the body moves broadside on.
+pub(super) fn joint_mass(shared: &SharedConstants, body: &RigidBody, impulse: Vector) -> f64 {
+    let length = impulse.length();
+    if length > 0.0 {
+        contact_mass::mass_along(shared, body, impulse / length)
+    } else {
+        shared.principal_mass.masses.max()
+    }
+}
+
+/// Whether the joints of a body did nothing in the last step.
+pub(super) fn is_slack(shared: &SharedConstants, body: &RigidBody, flight: &FlightState) -> bool {
+    let around = body.angvel().length() * shared.constants.length as Real;
+    let momentum = flight.solver_mass * (body.linvel().length() + around);
+    // By the trace: rounding about a thin rod's axis is not small against its spin about it.
+    let inertia = &shared.step.scales.rapier_inertia;
+    let turning = (inertia.m11 + inertia.m22 + inertia.m33) * body.angvel().length();
+    flight.constraint_time > 0.0
+        && flight.constraint_impulse.length() <= SLACK * momentum
+        && flight.constraint_moment.length() <= SLACK * turning
+}
+
+/// The impulse that the coming step counts on. After a longer step the impulse is that of a
+/// shorter time; after a shorter one it is not blown up, since rounding of tiny steps would be as well. The
+/// joint of a body that turns far in a step will push in another direction: nothing is expected then. Nor of the joints of a multibody: nothing can
+/// set a link's velocity right after the step, and one in twenty links that fly fast through water would
+/// run away. Along the last impulse the solver's mass is right all the same.
+pub(super) fn of_step(flight: &FlightState, body: &RigidBody, linked: bool, dt: Real) -> Vector {
+    if linked || body.angvel().length() * dt > FAR {
+        return Vector::ZERO;
+    }
+    if flight.constraint_time > dt {
+        flight.constraint_impulse * (dt / flight.constraint_time)
+    } else {
+        flight.constraint_impulse
+    }
+}
+
+/// What the constraints of a body did in a step. World axes, N·s and N·m·s.
+#[derive(Clone, Copy)]
+pub(super) struct Learnt {
+    pub impulse: Vector,
+    pub moment: Vector,
+}
+
+/// Learns from rapier's step what the joints of a body did, and sets its velocity right where they have
+/// opened.
+pub(super) fn learn(
+    shared: &SharedConstants,
+    body: &mut RigidBody,
+    flight: &mut FlightState,
+    start: &HeldStart,
+    dt: Real,
+) -> Learnt {
+    let locked = locked_axes::linear(start.locks);
+    let undamped = body.linvel() * (1.0 + dt * body.linear_damping());
+    let mut surprise = undamped - start.linear - start.expected_change;
+    let rounding = ROUNDING * (undamped.length() + start.linear.length());
+    if surprise.length() <= rounding {
+        surprise = Vector::ZERO;
+    }
+    let solver_mass = flight.solver_mass;
+    let surprise = surprise * solver_mass * (Vector::ONE - vector(locked));
+    let expected = start.impulse;
+    let impulse = expected + surprise;
+    let heavy = f64::from(solver_mass);
+    let attitude = start.attitude;
+    let masses = &shared.principal_mass;
+    let opened =
+        expected != Vector::ZERO && impulse.dot(expected) < OPEN * expected.length_squared();
+    flight.constraint_time = dt;
+    let turned = body.angvel() * (1.0 + dt * body.angular_damping());
+    let unexpected = turned - start.angular - start.expected_turn;
+    flight.constraint_moment = held_motion::turned(shared, attitude, unexpected);
+    if opened {
+        let right = masses.scale(attitude, surprise, |mass| 1.0 / mass - 1.0 / heavy);
+        body.set_linvel(body.linvel() + right, false);
+        flight.constraint_impulse = impulse;
+    } else {
+        let learnt = masses.scale(attitude, surprise, |mass| (mass / heavy).min(1.0));
+        flight.constraint_impulse = expected + learnt;
+    }
+    if !(flight.constraint_impulse + flight.constraint_moment).is_finite() {
+        flight.constraint_impulse = Vector::ZERO;
+        flight.constraint_moment = Vector::ZERO;
+    }
+    Learnt {
+        impulse,
+        moment: flight.constraint_moment,
+    }
+}

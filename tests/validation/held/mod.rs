@@ -1,0 +1,8 @@
+//! Bodies that something holds: one promise per module.
+
+mod energy;
+mod energy_scene;
+mod friction;
+mod joints;
+mod locked;
+mod swing;
