@@ -1,11 +1,11 @@
 //! What of a rapier world the coupling works on.
 
 use rapier3d::dynamics::{
-    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBody,
-    RigidBodyHandle, RigidBodySet,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBodyHandle,
+    RigidBodySet,
 };
 use rapier3d::geometry::{ColliderSet, NarrowPhase};
-use rapier3d::math::Vector;
+use rapier3d::math::{Real, Vector};
 use rapier3d::pipeline::PhysicsWorld;
 
 /// The parts of a rapier world that the step reads and writes, for users who hold rapier's sets
@@ -25,8 +25,13 @@ pub struct RapierSets<'a> {
     pub colliders: &'a mut ColliderSet,
     /// Joints: jointed bodies are handed over like those in contact.
     pub impulse_joints: &'a ImpulseJointSet,
-    /// Multibodies, likewise.
-    pub multibody_joints: &'a MultibodyJointSet,
+    /// Multibodies, likewise; written where the velocities that rapier leaves have more energy than was there.
+    pub multibody_joints: &'a mut MultibodyJointSet,
+}
+
+/// A velocity times a factor; zero times infinity is zero.
+pub(super) fn scaled(velocity: Real, factor: Real) -> Real {
+    if factor == 0.0 { 0.0 } else { velocity * factor }
 }
 
 impl<'a> RapierSets<'a> {
@@ -40,25 +45,63 @@ impl<'a> RapierSets<'a> {
             bodies: &mut world.bodies,
             colliders: &mut world.colliders,
             impulse_joints: &world.impulse_joints,
-            multibody_joints: &world.multibody_joints,
+            multibody_joints: &mut world.multibody_joints,
         }
     }
 
-    /// Whether joints hold a body.
-    pub(super) fn join(&self, handle: RigidBodyHandle) -> bool {
-        (!self.impulse_joints.is_empty()
-            && self.impulse_joints.attached_joints(handle).next().is_some())
-            || self.link(handle)
+    /// Whether there are joints at all.
+    pub(super) fn have_joints(&self) -> bool {
+        !self.impulse_joints.is_empty() || self.multibody_joints.multibodies().next().is_some()
     }
 
-    /// Whether all joints of a body are without motors, and hold it to bodies that stand still.
-    pub(super) fn join_without_work(&self, handle: RigidBodyHandle) -> bool {
-        let mut joints = self.impulse_joints.attached_joints(handle);
-        joints.all(|(first, second, _, joint)| {
-            let other = if first == handle { second } else { first };
-            joint.data.motor_axes.is_empty()
-                && self.bodies.get(other).is_some_and(RigidBody::is_fixed)
-        })
+    /// The velocities of a link of a multibody, m/s at its center of mass and rad/s. Those that rapier's body
+    /// reads after a step are of one substep before.
+    /// Zero before the first step.
+    pub(super) fn link_velocities(&self, handle: RigidBodyHandle) -> (Vector, Vector) {
+        let nothing = (Vector::ZERO, Vector::ZERO);
+        let Some(id) = self.multibody_joints.rigid_body_link(handle) else {
+            return nothing;
+        };
+        let Some(multibody) = self.multibody_joints.get_multibody(id.multibody) else {
+            return nothing;
+        };
+        let jacobian = multibody.body_jacobian(id.id);
+        let velocity = multibody.generalized_velocity();
+        if jacobian.ncols() != velocity.len() {
+            return nothing;
+        }
+        let v = jacobian * velocity;
+        (Vector::new(v[0], v[1], v[2]), Vector::new(v[3], v[4], v[5]))
+    }
+
+    /// Multiplies the velocities of a multibody relative to `still` by a factor, once: for the first of its
+    /// links that moves.
+    pub(super) fn slow_links_down(
+        &mut self,
+        handle: RigidBodyHandle,
+        factor: Real,
+        still: Vector,
+    ) {
+        let Some(id) = self.multibody_joints.rigid_body_link(handle).copied() else {
+            return;
+        };
+        let Some(multibody) = self.multibody_joints.get_multibody_mut(id.multibody) else {
+            return;
+        };
+        let root = multibody.root();
+        let free_root = root.joint().ndofs() == 6;
+        if id.id > 1 || (id.id == 1 && free_root) {
+            return;
+        }
+        let mut velocity = multibody.generalized_velocity_mut();
+        for part in velocity.iter_mut() {
+            *part = scaled(*part, factor);
+        }
+        if free_root {
+            for (i, part) in still.to_array().into_iter().enumerate() {
+                velocity[i] += part * (1.0 - factor);
+            }
+        }
     }
 
     /// Whether a body is a link of a multibody.

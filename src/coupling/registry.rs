@@ -105,6 +105,12 @@ impl Registry {
         self.descriptions.get(state.description)
     }
 
+    /// Whether the body of an index is in the fluid.
+    pub fn moves(&self, index: usize) -> bool {
+        let state = self.bodies.get(index).and_then(Option::as_ref);
+        state.is_some_and(|state| state.saved.is_some())
+    }
+
     /// Indices of the constants that are in use.
     pub fn used_constants(&self) -> impl Iterator<Item = u32> {
         self.bodies.iter().flatten().map(|state| state.constants)

@@ -46,6 +46,7 @@ const ROUNDING: Real = 1e-6;
 const OPEN: Real = 0.25;
 /// Turn in a step, rad, after which the last impulse says nothing about the next.
 const FAR: Real = 1.0;
+
 /// The mass that a jointed body shows rapier: along the last impulse of its joints; the largest until that
 /// is known, so that the first impulse is that of the whole fluid where the body moves broadside on.
 pub(super) fn joint_mass(shared: &SharedConstants, body: &RigidBody, impulse: Vector) -> f64 {
@@ -71,11 +72,9 @@ pub(super) fn is_slack(shared: &SharedConstants, body: &RigidBody, flight: &Flig
 
 /// The impulse that the coming step counts on. After a longer step the impulse is that of a
 /// shorter time; after a shorter one it is not blown up, since rounding of tiny steps would be as well. The
-/// joint of a body that turns far in a step will push in another direction: nothing is expected then. Nor of the joints of a multibody: nothing can
-/// set a link's velocity right after the step, and one in twenty links that fly fast through water would
-/// run away. Along the last impulse the solver's mass is right all the same.
-pub(super) fn of_step(flight: &FlightState, body: &RigidBody, linked: bool, dt: Real) -> Vector {
-    if linked || body.angvel().length() * dt > FAR {
+/// joint of a body that turns far in a step will push in another direction: nothing is expected then.
+pub(super) fn of_step(flight: &FlightState, body: &RigidBody, dt: Real) -> Vector {
+    if body.angvel().length() * dt > FAR {
         return Vector::ZERO;
     }
     if flight.constraint_time > dt {
@@ -123,7 +122,9 @@ pub(super) fn learn(
     flight.constraint_moment = held_motion::turned(shared, attitude, unexpected);
     if opened {
         let right = masses.scale(attitude, surprise, |mass| 1.0 / mass - 1.0 / heavy);
-        body.set_linvel(body.linvel() + right, false);
+        if !start.linked {
+            body.set_linvel(body.linvel() + right, false);
+        }
         flight.constraint_impulse = impulse;
     } else {
         let learnt = masses.scale(attitude, surprise, |mass| (mass / heavy).min(1.0));

@@ -1,6 +1,6 @@
 //! Runs the stages of a step over batches of bodies.
 
-use super::contact_mass;
+use super::{contact_mass, energy_budget};
 use super::integrate::integrate;
 use super::prepare::{self, Preparation};
 use super::sample_fluid::sample_fluid;
@@ -37,9 +37,12 @@ pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierS
         substeps: parameters.num_solver_iterations.max(1),
         scheme: SubstepScheme::new(parameters.dt, parameters.num_solver_iterations),
         gravity: sets.gravity,
+        joints: sets.have_joints(),
         integrator: parts.integrator,
     };
     parts.workspace.forget_bodies();
+    let states = parts.registry.states().len();
+    parts.workspace.systems.clear(states);
     let heavy_fluid = parts.constants.heavy_fluid;
     contact_mass::find_close(
         parts.registry,
@@ -84,6 +87,7 @@ fn move_body(
         context,
         registry: parts.registry,
         batches: &mut parts.workspace.batches,
+        systems: &mut parts.workspace.systems,
     };
     if let Some(route) = prepare::prepare(handle, sets, &mut preparation)
         && parts.workspace.batches[route.index()].is_full()
@@ -139,14 +143,10 @@ pub(in crate::coupling) fn give_back(parts: &mut StepParts, sets: &mut RapierSet
 
 /// Gives users' forces back and corrects the velocities of bodies in contact.
 pub(in crate::coupling) fn after_step(parts: &mut StepParts, sets: &mut RapierSets) {
-    for saved in &parts.workspace.saved_forces {
-        write_back::finish(
-            saved,
-            parts.workspace,
-            parts.constants,
-            parts.registry,
-            sets,
-        );
+    for i in 0..parts.workspace.saved_forces.len() {
+        let (workspace, registry) = (&mut *parts.workspace, &mut *parts.registry);
+        write_back::finish(i, workspace, parts.constants, registry, sets);
     }
+    energy_budget::keep(parts.workspace, parts.constants, parts.registry, sets);
     parts.workspace.forget_bodies();
 }

@@ -1,4 +1,4 @@
-//! A joint gives a body no more energy than its impulse does.
+//! Joints give bodies no more energy than they have.
 //!
 //! Rapier moves a jointed body with a scalar mass and the inertia of the step's start; body and fluid have
 //! 𝕄 in axes that turn with the body. Where a step turns it far, the velocity that the solver leaves has
@@ -11,22 +11,31 @@
 //! ½ν₁·𝕄ν₁ ≤ ½ν₀·𝕄ν₀ + (Q dt + J)·(ν₀ + ν₁)/2
 //! ```
 //!
-//! since drag only takes. In rapier's own terms the work of J is exact as long as the step does not turn the
-//! body far. Of joints without motors to bodies that stand still it is known better: they do none, and −J·v in the frame of a fluid that moves by v. Where the
-//! fluid changes its velocity it works, too; its work is in the motion that was integrated, ν':
+//! since drag only takes. Where the fluid changes its velocity it works, too; its work is in the motion that
+//! was integrated, ν', with the impulse Ĵ that was counted on:
 //!
 //! ```text
 //! ½ν₁·𝕄ν₁ ≤ ½ν'·𝕄ν' + J·(ν₀ + ν₁)/2 − Ĵ·(ν₀ + ν')/2
 //! ```
 //!
-//! A body that has more is slowed down, all velocities by the same factor, which keeps what a joint to the
-//! world demands. Errors that took energy are remembered up to 2·10⁻⁴ of it, so that those which come
-//! and go in turns damp nothing.
+//! In rapier's own terms the work of J is exact only as long as the step does not turn the body far. Joints
+//! without motors do none on the whole of a [system](super::jointed_systems) of bodies that they connect,
+//! except −J·v in the frame of a fluid that moves by v, and what springs store. The sum of all that is kept
+//! for each system; body by body where a motor, a contact or a body that is not in the fluid drives it, unless
+//! it has links of multibodies, which share one velocity.
+//!
+//! A system that has more is slowed down, all velocities by the same factor, which keeps what its joints
+//! demand. Errors that took energy are remembered up to 2·10⁻⁴ of it, so that those which come and go in
+//! turns damp nothing; up to a quarter where a spring swings, whose energy a step of a tenth of its period
+//! changes by so much within the swing.
 
 use super::constraint_impulse::Learnt;
-use super::workspace::HeldStart;
-use crate::coupling::body_state::FlightState;
-use crate::coupling::shared_constants::SharedConstants;
+use super::jointed_systems::{SystemKind, spring_energy};
+use super::workspace::{HeldEnd, HeldStart, Workspace};
+use crate::coupling::body_state::BodyState;
+use crate::coupling::rapier_sets::{RapierSets, scaled};
+use crate::coupling::registry::Registry;
+use crate::coupling::shared_constants::{ConstantsTable, SharedConstants};
 use crate::math::spatial::{Twist, dot};
 use rapier3d::dynamics::RigidBody;
 use rapier3d::math::{Real, Rotation, Vector};
@@ -34,11 +43,13 @@ use rapier3d::na::Vector3;
 
 /// Share of its energy that a body may get back of what was lost.
 const RESERVE: Real = 2e-4;
+/// The same where springs swing.
+const SPRUNG_RESERVE: Real = 0.25;
 /// Relative excess that is left alone: rounding.
 const ROUNDING: Real = 1e-6;
 
 /// Kinetic energy of body and fluid, J; velocities in plate axes.
-pub(super) fn kinetic_energy(shared: &SharedConstants, linear: Vector, angular: Vector) -> Real {
+fn kinetic_energy(shared: &SharedConstants, linear: Vector, angular: Vector) -> Real {
     let constants = &shared.constants;
     let length = constants.length as Real;
     let velocity = Twist {
@@ -50,45 +61,195 @@ pub(super) fn kinetic_energy(shared: &SharedConstants, linear: Vector, angular: 
     0.5 * constants.mass as Real * twice
 }
 
-/// Slows a jointed body down that has more energy than its joints can have given it.
-pub(super) fn keep(
+/// The same, velocities in world axes; `attitude` maps the body's frame to the world.
+fn energy_at(
     shared: &SharedConstants,
-    body: &mut RigidBody,
-    flight: &mut FlightState,
+    attitude: Rotation,
+    linear: Vector,
+    angular: Vector,
+) -> Real {
+    let back = (attitude * shared.axes).inverse();
+    kinetic_energy(shared, back * linear, back * angular)
+}
+
+/// What a jointed body has after the step.
+pub(super) fn measure(
+    shared: &SharedConstants,
+    body: &RigidBody,
     start: &HeldStart,
+    number: u32,
     did: &Learnt,
     dt: Real,
-) {
-    let energy = |attitude: Rotation, relative: Vector, angular: Vector| {
-        let back = (attitude * shared.axes).inverse();
-        kinetic_energy(shared, back * relative, back * angular)
-    };
+) -> HeldEnd {
     let relative = body.linvel() - start.fluid_velocity;
-    let now = energy(*body.rotation(), relative, body.angvel());
     let before = start.linear - start.fluid_velocity;
     let mean = (before + relative) * 0.5;
     let mean_turn = (start.angular + body.angvel()) * 0.5;
     let without_joints = if start.steady {
         let loads = start.load_force.dot(mean) + start.load_torque.dot(mean_turn);
-        energy(start.attitude, before, start.angular) + loads * dt
+        energy_at(shared, start.attitude, before, start.angular) + loads * dt
     } else {
         let integrated = kinetic_energy(shared, start.own_linear, start.own_angular);
         integrated - start.impulse.dot(before + start.expected_change * 0.5)
     };
-    let work = if start.workless {
-        -did.impulse.dot(start.fluid_velocity)
-    } else {
-        did.impulse.dot(mean) + did.moment.dot(mean_turn)
-    };
-    let reserve = flight.energy_reserve + without_joints + work - now;
-    if reserve.is_nan() {
-        flight.energy_reserve = 0.0;
+    HeldEnd {
+        start: number,
+        energy: energy_at(shared, *body.rotation(), relative, body.angvel()),
+        without_joints,
+        work_in_flow: -did.impulse.dot(start.fluid_velocity),
+        work: did.impulse.dot(mean) + did.moment.dot(mean_turn),
+    }
+}
+
+/// The sums over a system, J, and the factor by which it is slowed down.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::coupling) struct SystemEnergy {
+    energy: Real,
+    allowed: Real,
+    /// What springs store after the step.
+    stored: Real,
+    /// Parts of `energy` at rest in the fluid, and of the velocities in the world.
+    at_rest: Real,
+    of_world: Real,
+    bodies: Real,
+    reserve: Real,
+    factor: Real,
+}
+
+impl SystemEnergy {
+    /// Sets the energy that is left over, or the factor if there is too much. A system that hangs on
+    /// something is slowed down in the frame of the world, others in that of the fluid.
+    fn settle(&mut self, kind: SystemKind) {
+        let share = if kind.sprung { SPRUNG_RESERVE } else { RESERVE };
+        let left = self.allowed - self.energy - self.stored;
+        self.factor = 1.0;
+        self.reserve = 0.0;
+        if !left.is_finite() {
+            // What is beyond all numbers is stopped.
+            self.factor = if self.energy.is_finite() { 1.0 } else { 0.0 };
+            return;
+        }
+        self.reserve = left.clamp(0.0, share * (self.energy + self.stored));
+        if left < -ROUNDING * (self.energy + self.stored) {
+            let wanted = (self.energy + left).max(0.0);
+            self.factor = if kind.anchored && self.at_rest > 0.0 {
+                // ½(fv − U)·𝕄(fv − U) = af² − bf + c.
+                let (a, c) = (self.of_world, self.at_rest);
+                let b = a + c - self.energy;
+                let square = b * b - 4.0 * a * (c - wanted);
+                (b + square.max(0.0).sqrt()) / (2.0 * a)
+            } else {
+                (wanted / self.energy).sqrt()
+            };
+            self.factor = self.factor.clamp(0.0, 1.0);
+            if self.factor.is_nan() {
+                self.factor = 1.0;
+            }
+        }
+    }
+}
+
+/// Slows the systems down that have more energy than they can have.
+pub(super) fn keep(
+    workspace: &mut Workspace,
+    constants: &ConstantsTable,
+    registry: &mut Registry,
+    sets: &mut RapierSets,
+) {
+    let Workspace {
+        held,
+        held_ends,
+        systems,
+        energies,
+        ..
+    } = workspace;
+    if held_ends.is_empty() {
         return;
     }
-    flight.energy_reserve = reserve.clamp(0.0, RESERVE * now);
-    if reserve < -ROUNDING * now {
-        let factor = ((now + reserve) / now).max(0.0).sqrt();
-        body.set_linvel(start.fluid_velocity + relative * factor, false);
-        body.set_angvel(body.angvel() * factor, false);
+    energies.clear();
+    energies.resize(systems.len(), SystemEnergy::default());
+    for end in held_ends.iter() {
+        let start = &held[end.start as usize];
+        let first = systems.first_of(start.system);
+        let kind = systems.kind(first);
+        let index = kind.sum_of(start.system, first);
+        let work = if kind.driven {
+            end.work
+        } else {
+            end.work_in_flow
+        };
+        let Some((state, shared)) = body_of(start, registry, constants) else {
+            continue;
+        };
+        let sum = &mut energies[index as usize];
+        sum.bodies += 1.0;
+        sum.energy += end.energy;
+        sum.allowed += end.without_joints + work + state.flight.energy_reserve;
+        if kind.anchored
+            && start.fluid_velocity != Vector::ZERO
+            && let Some(body) = sets.bodies.get(start.handle)
+        {
+            let attitude = *body.rotation();
+            sum.at_rest += energy_at(shared, attitude, start.fluid_velocity, Vector::ZERO);
+            sum.of_world += energy_at(shared, attitude, body.linvel(), body.angvel());
+        }
+    }
+    for &(number, joint, before) in systems.springs() {
+        let first = systems.first_of(number);
+        if !systems.kind(first).driven
+            && let Some(joint) = sets.impulse_joints.get(joint)
+        {
+            let sum = &mut energies[first as usize];
+            sum.allowed += before;
+            sum.stored += spring_energy(&joint.data, sets.bodies, [joint.body1(), joint.body2()]);
+        }
+    }
+    for number in 0..systems.len() as u32 {
+        let first = systems.first_of(number);
+        let kind = systems.kind(first);
+        if kind.sum_of(number, first) == number {
+            energies[number as usize].settle(kind);
+        }
+    }
+    for end in held_ends.iter() {
+        let start = &held[end.start as usize];
+        let first = systems.first_of(start.system);
+        let kind = systems.kind(first);
+        let sum = &energies[kind.sum_of(start.system, first) as usize];
+        let Some((state, _)) = body_of(start, registry, constants) else {
+            continue;
+        };
+        state.flight.energy_reserve = sum.reserve / sum.bodies;
+        if sum.factor < 1.0 {
+            let still = if kind.anchored {
+                Vector::ZERO
+            } else {
+                start.fluid_velocity
+            };
+            slow_down(start, sum.factor, still, sets);
+        }
+    }
+}
+
+/// The state and the constants of a body that was held in this step.
+fn body_of<'a>(
+    start: &HeldStart,
+    registry: &'a mut Registry,
+    constants: &'a ConstantsTable,
+) -> Option<(&'a mut BodyState, &'a SharedConstants)> {
+    let state = registry.at_mut(start.state as usize)?;
+    let shared = constants.get(state.constants)?;
+    Some((state, shared))
+}
+
+/// Multiplies the velocities of a body relative to `still` by a factor.
+fn slow_down(start: &HeldStart, factor: Real, still: Vector, sets: &mut RapierSets) {
+    if start.linked {
+        sets.slow_links_down(start.handle, factor, still);
+    }
+    if let Some(body) = sets.bodies.get_mut(start.handle) {
+        let slower = |v: Vector| Vector::from_array(v.to_array().map(|x| scaled(x, factor)));
+        body.set_linvel(still + slower(body.linvel() - still), false);
+        body.set_angvel(slower(body.angvel()), false);
     }
 }

@@ -13,14 +13,11 @@ use super::locked_axes;
 use super::workspace::{HeldStart, Substeps};
 use crate::coupling::shared_constants::SharedConstants;
 use crate::math::{to_f64, to_quaternion, to_real};
-use rapier3d::dynamics::RigidBody;
 use rapier3d::math::{Real, Rotation, Vector};
 use rapier3d::na::{Vector3, Vector6};
 
 /// Passes over attitude and velocity.
 const PASSES: usize = 3;
-/// Relative difference of velocities that rounding can cause.
-const ROUNDING: Real = 2e-5;
 
 /// Linear and angular velocity at the end of the step, world axes. `plate` maps the plate axes to the
 /// world at its start; `guess` is the angular velocity that the integrator found.
@@ -39,26 +36,9 @@ pub(super) fn end_velocities(
     (linear, angular)
 }
 
-/// After the step: gives a body with locked axes, if nothing else has acted on it, the velocities of its own
-/// axes at the attitude that rapier reached, should the passes not have found that.
-pub(super) fn settle(shared: &SharedConstants, body: &mut RigidBody, start: &HeldStart) {
-    let off = |now: Vector, expected: Vector| {
-        (now - expected).length() > ROUNDING * (now.length() + expected.length())
-    };
-    let linear = start.linear + start.expected_change;
-    let angular = start.angular + start.expected_turn;
-    if off(body.linvel(), linear) || off(body.angvel(), angular) {
-        return;
-    }
-    let plate = *body.rotation() * shared.axes;
-    let velocities = under_locks(shared, plate, start);
-    body.set_linvel(velocities.0, false);
-    body.set_angvel(velocities.1, false);
-}
-
 /// Linear and angular velocity in world axes of a body at an attitude (plate axes to world), under its
 /// locks.
-fn under_locks(shared: &SharedConstants, plate: Rotation, start: &HeldStart) -> (Vector, Vector) {
+pub(super) fn under_locks(shared: &SharedConstants, plate: Rotation, start: &HeldStart) -> (Vector, Vector) {
     let linear = plate * start.own_linear + start.fluid_velocity;
     let angular = plate * start.own_angular;
     if start.locks.is_empty() {

@@ -3,6 +3,7 @@
 //!
 //! * where rapier takes a single substep, which moves the body by the velocity at the end;
 //! * where a body has solver iterations of its own, so that it takes another number of substeps;
+//! * where locked axes hold it: the turn of a step is not one about the free axes;
 //! * where a body turns so far in a step, or changes its spin so much, that the series of rotation vectors
 //!   would miss the attitude by more than a milliradian.
 //!
@@ -14,9 +15,10 @@
 //! `ω̄ = (2n/dt) tan(θ/2n)` about its axis, θ being of all 2πk + θ₀ the turn closest to the body's spin.
 
 use super::held_motion::replayed;
+use super::locked_axes;
 use super::workspace::{StepContext, StepInput, StepOutput};
-use crate::math::vector;
-use rapier3d::dynamics::RigidBody;
+use crate::math::{Row, vector};
+use rapier3d::dynamics::{LockedAxes, RigidBody};
 use rapier3d::math::{Real, Rotation, Vector};
 use std::f32::consts::{PI, TAU};
 
@@ -61,6 +63,36 @@ impl MeanMotion {
             mean_angular: mean_spin(turn, expected, count) / context.dt,
             end_linear,
             end_angular,
+        }
+    }
+
+    /// How a body is moved that only its locked axes hold: always by its mean velocity, so that attitude and
+    /// velocities are those under which its energy was integrated. `end` are its velocities at the end.
+    pub fn locked(
+        input: &StepInput,
+        output: &StepOutput,
+        context: &StepContext,
+        end: (Vector, Vector),
+    ) -> Self {
+        let mut motion = Self::new(input, output, context);
+        let start = (vector(input.rapier_linear), vector(input.rapier_angular));
+        let keep = |mean: &mut Vector, start: Vector, locked: Row| {
+            *mean += (start - *mean) * vector(locked);
+        };
+        keep(
+            &mut motion.mean_linear,
+            start.0,
+            locked_axes::linear(input.locks),
+        );
+        // Turns about two axes add up to some about the third; those about one axis do not leave it.
+        if (input.locks & LockedAxes::ROTATION_LOCKED).bits().count_ones() > 1 {
+            let locked = locked_axes::angular(input.locks);
+            keep(&mut motion.mean_angular, start.1, locked);
+        }
+        Self {
+            end_linear: end.0,
+            end_angular: end.1,
+            ..motion
         }
     }
 

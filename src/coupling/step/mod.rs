@@ -16,6 +16,7 @@ mod energy_budget;
 mod friction;
 mod held_motion;
 mod integrate;
+mod jointed_systems;
 mod lane_group;
 mod locked_axes;
 mod mean_motion;

@@ -1,5 +1,6 @@
 //! The first stage: which bodies a step moves, and what it has to know of them.
 
+use super::jointed_systems::JointedSystems;
 use super::workspace::{Batch, CloseBodies, Disturbance, SeenFlow, StepContext, StepInput};
 use super::{constraint_impulse, contact_mass, friction};
 use crate::coupling::body_state::{FlightState, IntegratorState, NONE};
@@ -26,6 +27,7 @@ pub(super) struct Preparation<'a> {
     pub context: &'a StepContext,
     pub registry: &'a mut Registry,
     pub batches: &'a mut [Batch; Route::COUNT],
+    pub systems: &'a mut JointedSystems,
 }
 
 /// Puts an awake body into the batch of its route, if it is immersed.
@@ -35,18 +37,23 @@ pub(super) fn prepare(
     to: &mut Preparation,
 ) -> Option<Route> {
     let index = to.registry.index(handle)?;
-    let state = to.registry.at_mut(index)?;
     let body = sets.bodies.get(handle)?;
-    if state.saved.is_none() || !body.is_dynamic() || body.is_sleeping() {
+    if !to.registry.moves(index) || !body.is_dynamic() || body.is_sleeping() {
         return None;
     }
+    let system = if to.context.joints {
+        to.systems.enter(index, handle, sets, to.registry)
+    } else {
+        None
+    };
+    let state = to.registry.at_mut(index)?;
     let shared = to.constants.get(state.constants)?;
     let normal = if to.close.contains(index) {
         contact_mass::normal(shared, body, sets)
     } else {
         None
     };
-    let jointed = sets.join(handle);
+    let jointed = system.is_some();
     let locks = body.locked_axes();
     let touching = normal.is_some() || jointed || locks != LockedAxes::empty();
     let dt = to.context.dt;
@@ -81,11 +88,23 @@ pub(super) fn prepare(
         && normal.is_none()
         && locks.is_empty()
         && constraint_impulse::is_slack(shared, body, flight);
-    let free = !touching || slack;
+    // Locks alone are obeyed by the integrator.
+    let locked = !locks.is_empty() && !jointed && normal.is_none();
+    let free = !touching || slack || locked;
+    if let Some(system) = system
+        && (normal.is_some() || moves_along(locks, body))
+    {
+        to.systems.drive(system);
+    }
 
     let rapier_attitude = *body.rotation() * shared.axes;
-    let continues = free && continues(flight, body, rapier_attitude);
-    let (linear, angular) = (body.linvel(), body.angvel());
+    let continues = free && !locked && continues(flight, body, rapier_attitude);
+    let (linear, angular) = if linked {
+        // What a user has set is not what rapier's multibody moves by.
+        sets.link_velocities(handle)
+    } else {
+        (body.linvel(), body.angvel())
+    };
     let (force, torque) = (body.user_force(), body.user_torque());
     let (change_linear, change_angular) = if continues {
         (
@@ -97,7 +116,7 @@ pub(super) fn prepare(
         (linear, angular)
     };
     let impulse = match normal {
-        _ if jointed => constraint_impulse::of_step(flight, body, linked, dt),
+        _ if jointed => constraint_impulse::of_step(flight, body, dt),
         Some(normal) => {
             let expected = friction::expected(shared, body, flight, normal, solver_mass, sets);
             flight.constraint_impulse = expected;
@@ -136,9 +155,9 @@ pub(super) fn prepare(
         free,
         may_sleep: touching,
         in_contact: normal.is_some(),
-        jointed,
+        locked,
+        system: system.unwrap_or(NONE),
         linked,
-        workless: jointed && sets.join_without_work(handle),
         locks,
         own_substeps: body.additional_solver_iterations() as u32,
         continues,
@@ -153,6 +172,18 @@ pub(super) fn prepare(
         rapier_angular: row(angular),
     });
     Some(shared.route)
+}
+
+/// Whether a body moves along an axis that is locked.
+fn moves_along(locks: LockedAxes, body: &RigidBody) -> bool {
+    let along = |velocity: Vector, bits: u8| {
+        let locked = |i: u8| bits >> i & 1 == 1;
+        (locked(0) && velocity.x != 0.0)
+            || (locked(1) && velocity.y != 0.0)
+            || (locked(2) && velocity.z != 0.0)
+    };
+    !locks.is_empty()
+        && (along(body.linvel(), locks.bits()) || along(body.angvel(), locks.bits() >> 3))
 }
 
 /// Whether the motion that was integrated goes on: nobody has turned the body since, and nothing damps

@@ -1,5 +1,7 @@
 //! What passes between the stages of a step, and the memory for it, which is reused from step to step.
 
+use super::energy_budget::SystemEnergy;
+use super::jointed_systems::JointedSystems;
 use super::mean_motion::MeanMotion;
 use super::substep_matching::SubstepScheme;
 use crate::coupling::body_state::{BodyState, FlightState, IntegratorState, TurbulenceMemory};
@@ -19,6 +21,8 @@ pub(in crate::coupling) struct StepContext {
     pub substeps: usize,
     pub scheme: SubstepScheme,
     pub gravity: Vector,
+    /// Whether there are joints.
+    pub joints: bool,
     pub integrator: Integrator,
 }
 
@@ -53,13 +57,13 @@ pub(in crate::coupling) struct StepInput {
     pub free: bool,
     /// Is in contact or held, so that rapier may let it sleep.
     pub may_sleep: bool,
-    /// Is in contact; is held by joints.
+    /// Is in contact; is held by locked axes and nothing else.
     pub in_contact: bool,
-    pub jointed: bool,
+    pub locked: bool,
+    /// Number among the jointed bodies, `NONE` if no joint holds it.
+    pub system: u32,
     /// Is a link of a multibody, whose velocity cannot be set.
     pub linked: bool,
-    /// Whether its joints can do no work.
-    pub workless: bool,
     pub locks: LockedAxes,
     /// Substeps that rapier takes for it beyond those of the others.
     pub own_substeps: u32,
@@ -173,13 +177,16 @@ pub(in crate::coupling) struct SavedForces {
     pub touching: bool,
     /// Index in `moved_by_mean` of a body that gets its velocity after the step, `NONE` for others.
     pub mean_motion: u32,
-    /// Index in `held` of a body that is held but not in contact, `NONE` for others.
+    /// Index in `held` of a jointed body, `NONE` for others.
     pub held: u32,
 }
 
-/// A held body before rapier's step. World axes unless said otherwise.
+/// A body held by joints or locks before rapier's step. World axes unless said otherwise.
 #[derive(Clone, Copy)]
 pub(in crate::coupling) struct HeldStart {
+    pub handle: RigidBodyHandle,
+    /// Index of its state.
+    pub state: u32,
     pub attitude: Rotation,
     pub linear: Vector,
     pub angular: Vector,
@@ -193,7 +200,8 @@ pub(in crate::coupling) struct HeldStart {
     pub own_angular: Vector,
     pub fluid_velocity: Vector,
     pub locks: LockedAxes,
-    pub jointed: bool,
+    /// Number among the jointed bodies.
+    pub system: u32,
     /// Whether it flies freely all the same, its joints being slack.
     pub flies: bool,
     /// Weight, buoyancy and user's force, N, and their torque, N·m.
@@ -201,10 +209,21 @@ pub(in crate::coupling) struct HeldStart {
     pub load_torque: Vector,
     /// Whether the fluid's velocity is that of the last step.
     pub steady: bool,
-    /// Whether its joints can do no work.
-    pub workless: bool,
-    /// Whether its velocity may be set: rapier overwrites those of multibodies' links.
-    pub settable: bool,
+    /// Whether it is a link of a multibody, which gets its velocity from that.
+    pub linked: bool,
+}
+
+/// A jointed body after rapier's step.
+#[derive(Clone, Copy)]
+pub(in crate::coupling) struct HeldEnd {
+    /// Index of its [`HeldStart`].
+    pub start: u32,
+    /// Kinetic energy of body and fluid, J, and what it would be without the joints.
+    pub energy: Real,
+    pub without_joints: Real,
+    /// Work of the joints, J: by the body's own velocity, and by that of the fluid.
+    pub work: Real,
+    pub work_in_flow: Real,
 }
 
 /// Bodies of one route that are moved together.
@@ -293,6 +312,9 @@ pub(in crate::coupling) struct Workspace {
     /// What the bodies had before the step: filled by `before_step`, emptied by `after_step`.
     pub saved_forces: Vec<SavedForces>,
     pub held: Vec<HeldStart>,
+    pub held_ends: Vec<HeldEnd>,
+    pub systems: JointedSystems,
+    pub energies: Vec<SystemEnergy>,
     pub moved_by_mean: Vec<MeanMotion>,
     pub samples: Vec<FlowSample>,
     /// Bodies at which the flow was no number in this step.
@@ -304,6 +326,7 @@ impl Workspace {
     pub fn forget_bodies(&mut self) {
         self.saved_forces.clear();
         self.held.clear();
+        self.held_ends.clear();
         self.moved_by_mean.clear();
     }
 }

@@ -89,10 +89,28 @@ fn write_body(
         held: NONE,
     };
     let (mut force, mut torque) = (force, torque);
-    let held = !input.free || input.jointed;
-    let before = held.then(|| (*body.rotation(), body.linvel(), body.angvel()));
+    let jointed = input.system != NONE;
+    let held = (!input.free || jointed || input.locked).then(|| Held {
+        shared,
+        input,
+        output,
+        impulse: disturbance.map_or(Vector::ZERO, |d| vector(d.impulse)),
+        user_force: saved.force,
+        user_torque: saved.torque,
+        steady,
+        context: to.context,
+    });
+    let mut start = held.as_ref().map(|held| held.start(body, flight, force));
     if input.free {
-        if let Some(motion) = MeanMotion::of(input, output, to.context) {
+        let motion = match &start {
+            Some(start) if input.locked => {
+                let plate = Rotation::from_array(output.motion.attitude);
+                let end = held_motion::under_locks(shared, plate, start);
+                Some(MeanMotion::locked(input, output, to.context, end))
+            }
+            _ => MeanMotion::of(input, output, to.context),
+        };
+        if let Some(motion) = motion {
             body.set_linvel(motion.mean_linear, false);
             body.set_angvel(motion.mean_angular, false);
             force = to.context.gravity * (-input.gravity_scale * input.solver_mass);
@@ -103,26 +121,12 @@ fn write_body(
             body.set_linvel(start_linear, false);
             body.set_angvel(start_angular, false);
         }
+    } else if let (Some(held), Some(start)) = (&held, &mut start) {
+        (force, torque) = held.forces(body, flight, start, force, torque);
     }
-    if let Some(before) = before {
-        let held = Held {
-            shared,
-            input,
-            output,
-            impulse: disturbance.map_or(Vector::ZERO, |d| vector(d.impulse)),
-            user_force: saved.force,
-            user_torque: saved.torque,
-            steady,
-            context: to.context,
-        };
-        let mut start = held.start(before, flight, force);
-        if !input.free {
-            (force, torque) = held.forces(body, flight, &mut start, force, torque);
-        }
-        if input.jointed || (!input.locks.is_empty() && !input.in_contact) {
-            saved.held = to.held.len() as u32;
-            to.held.push(start);
-        }
+    if jointed && let Some(start) = start {
+        saved.held = to.held.len() as u32;
+        to.held.push(start);
     }
     if flight.converts_torque && input.locks.is_empty() {
         let rapier = &body.mass_properties().local_mprops;
@@ -136,7 +140,7 @@ fn write_body(
     }
     // Impulses at a lever can spin a thin body up without bounds: rapier's own limit stays on.
     let fast = input.free
-        || !input.jointed
+        || !jointed
         || state
             .saved
             .as_ref()
@@ -177,16 +181,20 @@ impl Held<'_> {
     /// The body before the step. `force` is that which leads to the velocity that was integrated.
     fn start(
         &self,
-        (attitude, linear, angular): (Rotation, Vector, Vector),
+        body: &RigidBody,
         flight: &FlightState,
         force: Vector,
     ) -> HeldStart {
+        let attitude = *body.rotation();
         let (input, output) = (self.input, self.output);
+        let (linear, angular) = (vector(input.rapier_linear), vector(input.rapier_angular));
         let gravity = self.context.gravity * input.gravity_scale;
         let constants = &self.shared.constants;
         let (dry_mass, displaced) = (constants.dry.mass, constants.displaced_mass);
         let arm = attitude * to_real(constants.buoyancy_arm);
         let mut start = HeldStart {
+            handle: input.handle,
+            state: input.state,
             attitude,
             linear,
             angular,
@@ -197,13 +205,12 @@ impl Held<'_> {
             own_angular: output.motion.angular * self.shared.step.inertia.per_length,
             fluid_velocity: flight.fluid_velocity,
             locks: input.locks,
-            jointed: input.jointed,
+            system: input.system,
             flies: input.free,
             load_force: self.user_force + gravity * (dry_mass - displaced) as f32,
             load_torque: self.user_torque + arm.cross(gravity * -displaced as f32),
             steady: self.steady,
-            workless: input.workless,
-            settable: !input.linked,
+            linked: input.linked,
         };
         if input.free {
             start.expected_change = vector(output.end_linear) - start.linear;
@@ -252,7 +259,7 @@ impl Held<'_> {
                 to_real(locked_axes::torque_for(&tensor, input.locks, acceleration))
             };
         }
-        if input.in_contact && !input.jointed {
+        if input.in_contact && input.system == NONE {
             // What the fluid does, as far as the mass of its own tells.
             let own = body.user_force() + gravity * shared.constants.dry.mass as f32;
             let masses = &shared.principal_mass;
@@ -306,12 +313,15 @@ impl Held<'_> {
 /// After the step: gives a body's forces back to the user, and corrects its velocity if it has just met
 /// something.
 pub(super) fn finish(
-    saved: &SavedForces,
-    workspace: &Workspace,
+    number: usize,
+    workspace: &mut Workspace,
     constants: &ConstantsTable,
     registry: &mut Registry,
     sets: &mut RapierSets,
 ) {
+    let Some(saved) = workspace.saved_forces.get(number) else {
+        return;
+    };
     let Some(body) = give_back(saved, sets.bodies) else {
         return;
     };
@@ -330,21 +340,30 @@ pub(super) fn finish(
         return;
     };
     if let Some(start) = workspace.held.get(saved.held as usize) {
-        if start.jointed {
-            let dt = sets.integration_parameters.dt;
-            let did = constraint_impulse::learn(shared, body, &mut state.flight, start, dt);
-            // A body that flew the whole step has the energy that was integrated.
-            let flew = start.flies && did.impulse == Vector::ZERO;
-            if start.settable && !flew {
-                energy_budget::keep(shared, body, &mut state.flight, start, &did, dt);
-            }
-        } else {
-            held_motion::settle(shared, body, start);
+        if start.linked
+            && let (linear, angular) = sets.link_velocities(saved.handle)
+            && let Some(body) = sets.bodies.get_mut(saved.handle)
+        {
+            body.set_linvel(linear, false);
+            body.set_angvel(angular, false);
+        }
+        let Some(body) = sets.bodies.get_mut(saved.handle) else {
+            return;
+        };
+        let dt = sets.integration_parameters.dt;
+        let did = constraint_impulse::learn(shared, body, &mut state.flight, start, dt);
+        // A body that flew the whole step has the energy that was integrated.
+        if !(start.flies && did.impulse == Vector::ZERO) {
+            let end = energy_budget::measure(shared, body, start, saved.held, &did, dt);
+            workspace.held_ends.push(end);
         }
     }
     if !saved.touching || state.flight.corrected_contacts >= IMPACT {
         return;
     }
+    let Some(body) = sets.bodies.get_mut(saved.handle) else {
+        return;
+    };
     let mass = state.flight.solver_mass.into();
     if let Some((linear, angular)) = contact_mass::correction(shared, body, sets.narrow_phase, mass)
         && (linear + angular).is_finite()

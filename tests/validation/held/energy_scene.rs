@@ -207,7 +207,24 @@ fn scene(case: &Case) -> Scene {
             _ => unreachable!(),
         };
         if case.to == To::Link {
-            world.insert_multibody_joint(other, body, joint);
+            let joint = world.insert_multibody_joint(other, body, joint).unwrap();
+            let bodies = &world.bodies;
+            let (multibody, _) = world.multibody_joints.get_mut(joint).unwrap();
+            multibody.forward_kinematics(bodies, true);
+            // The root moves freely, the rest slides and turns as fast.
+            let root = [angular, linear].map(|v| v.to_array());
+            let root = [root[1], root[0]].concat();
+            let most = root.iter().map(|x| x.abs()).fold(0.0, f32::max);
+            for (i, part) in multibody.generalized_velocity_mut().iter_mut().enumerate() {
+                let own = [0.3, -0.2, 0.5].map(|x| x * most.min(10.0));
+                *part = root.get(i).copied().unwrap_or(own[i % 3]);
+            }
+            for link in multibody.links() {
+                let v = multibody.body_jacobian(link.link_id()) * multibody.generalized_velocity();
+                let body = &mut world.bodies[link.rigid_body_handle()];
+                body.set_linvel(Vector::new(v[0], v[1], v[2]), true);
+                body.set_angvel(Vector::new(v[3], v[4], v[5]), true);
+            }
         } else {
             world.insert_impulse_joint(other, body, joint);
         }
