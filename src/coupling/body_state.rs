@@ -69,6 +69,8 @@ pub(super) struct FlightState {
     /// that it took, s.
     pub constraint_impulse: Vector,
     pub constraint_time: Real,
+    /// Whether that impulse turns with the body.
+    pub constraint_turns: bool,
     /// Change of angular momentum that the joints caused in the last step, N·m·s, world axes.
     pub constraint_moment: Vector,
     /// Energy that rounding and the finite step have lost to a jointed body, J: what they may give back.
@@ -86,6 +88,8 @@ pub(super) struct FlightState {
     pub turbulent_energy: Real,
     /// Whether rapier could not be given the right inertia tensor: torques are converted then.
     pub converts_torque: bool,
+    /// Whether joints held the body in the step before: its motion is another then than was integrated.
+    pub was_held: bool,
     /// Whether all this is from the step before.
     pub continues: bool,
 }
@@ -95,6 +99,7 @@ impl FlightState {
     pub fn let_go(&mut self) {
         self.constraint_impulse = Vector::ZERO;
         self.constraint_time = 0.0;
+        self.constraint_turns = false;
         self.constraint_moment = Vector::ZERO;
         self.fluid_force = Vector::ZERO;
         self.energy_reserve = 0.0;

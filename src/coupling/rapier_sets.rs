@@ -31,7 +31,11 @@ pub struct RapierSets<'a> {
 
 /// A velocity times a factor; zero times infinity is zero.
 pub(super) fn scaled(velocity: Real, factor: Real) -> Real {
-    if factor == 0.0 { 0.0 } else { velocity * factor }
+    if factor == 0.0 {
+        0.0
+    } else {
+        velocity * factor
+    }
 }
 
 impl<'a> RapierSets<'a> {
@@ -76,12 +80,7 @@ impl<'a> RapierSets<'a> {
 
     /// Multiplies the velocities of a multibody relative to `still` by a factor, once: for the first of its
     /// links that moves.
-    pub(super) fn slow_links_down(
-        &mut self,
-        handle: RigidBodyHandle,
-        factor: Real,
-        still: Vector,
-    ) {
+    pub(super) fn slow_links_down(&mut self, handle: RigidBodyHandle, factor: Real, still: Vector) {
         let Some(id) = self.multibody_joints.rigid_body_link(handle).copied() else {
             return;
         };

@@ -36,7 +36,7 @@ use crate::coupling::body_state::FlightState;
 use crate::coupling::shared_constants::SharedConstants;
 use crate::math::vector;
 use rapier3d::dynamics::RigidBody;
-use rapier3d::math::{Real, Vector};
+use rapier3d::math::{Real, Rotation, Vector};
 
 /// Part of a body's momentum that the impulse of a slack joint does not reach.
 const SLACK: Real = 1e-5;
@@ -46,6 +46,8 @@ const ROUNDING: Real = 1e-6;
 const OPEN: Real = 0.25;
 /// Turn in a step, rad, after which the last impulse says nothing about the next.
 const FAR: Real = 1.0;
+/// Turn in a step, rad, below which it does not matter whether the impulse turns with the body.
+const NEAR: Real = 0.02;
 
 /// The mass that a jointed body shows rapier: along the last impulse of its joints; the largest until that
 /// is known, so that the first impulse is that of the whole fluid where the body moves broadside on.
@@ -70,18 +72,32 @@ pub(super) fn is_slack(shared: &SharedConstants, body: &RigidBody, flight: &Flig
         && flight.constraint_moment.length() <= SLACK * turning
 }
 
-/// The impulse that the coming step counts on. After a longer step the impulse is that of a
-/// shorter time; after a shorter one it is not blown up, since rounding of tiny steps would be as well. The
-/// joint of a body that turns far in a step will push in another direction: nothing is expected then.
-pub(super) fn of_step(flight: &FlightState, body: &RigidBody, dt: Real) -> Vector {
-    if body.angvel().length() * dt > FAR {
-        return Vector::ZERO;
-    }
-    if flight.constraint_time > dt {
-        flight.constraint_impulse * (dt / flight.constraint_time)
+/// The impulse that the coming step counts on. After a longer step the impulse is that of a shorter time; after
+/// a shorter one it is not blown up, since rounding of tiny steps would be as well. It turns with the body
+/// where that was the better guess for the last step, as on a wheel, and not on a rope. A body that turns far
+/// in a step and whose joint does not turn with it will be pushed in another direction: nothing is expected
+/// then.
+pub(super) fn of_step(flight: &FlightState, angular: Vector, dt: Real) -> Vector {
+    let turn = angular.length() * dt;
+    let share = if flight.constraint_time > dt {
+        dt / flight.constraint_time
     } else {
-        flight.constraint_impulse
+        1.0
+    };
+    if turn < NEAR {
+        flight.constraint_impulse * share
+    } else if flight.constraint_turns {
+        turned_by(flight.constraint_impulse, angular * dt) * share
+    } else if turn < FAR {
+        flight.constraint_impulse * share
+    } else {
+        Vector::ZERO
     }
+}
+
+/// A vector turned by a rotation vector.
+fn turned_by(v: Vector, turn: Vector) -> Vector {
+    Rotation::from_scaled_axis(turn) * v
 }
 
 /// What the constraints of a body did in a step. World axes, N·s and N·m·s.
@@ -111,6 +127,12 @@ pub(super) fn learn(
     let surprise = surprise * solver_mass * (Vector::ONE - vector(locked));
     let expected = start.impulse;
     let impulse = expected + surprise;
+    let mean_turn = (start.angular + body.angvel()) * (0.5 * dt);
+    if mean_turn.length_squared() > NEAR * NEAR {
+        let last = flight.constraint_impulse;
+        let with_body = impulse - turned_by(last, mean_turn);
+        flight.constraint_turns = with_body.length_squared() < (impulse - last).length_squared();
+    }
     let heavy = f64::from(solver_mass);
     let attitude = start.attitude;
     let masses = &shared.principal_mass;

@@ -1,12 +1,12 @@
 //! Runs the stages of a step over batches of bodies.
 
-use super::{contact_mass, energy_budget};
 use super::integrate::integrate;
 use super::prepare::{self, Preparation};
 use super::sample_fluid::sample_fluid;
 use super::substep_matching::SubstepScheme;
 use super::workspace::{Batched, StepContext, Workspace};
 use super::write_back;
+use super::{contact_mass, energy_budget};
 use crate::coupling::control::SeriesTable;
 use crate::coupling::environment::Environment;
 use crate::coupling::rapier_sets::RapierSets;

@@ -38,7 +38,11 @@ pub(super) fn end_velocities(
 
 /// Linear and angular velocity in world axes of a body at an attitude (plate axes to world), under its
 /// locks.
-pub(super) fn under_locks(shared: &SharedConstants, plate: Rotation, start: &HeldStart) -> (Vector, Vector) {
+pub(super) fn under_locks(
+    shared: &SharedConstants,
+    plate: Rotation,
+    start: &HeldStart,
+) -> (Vector, Vector) {
     let linear = plate * start.own_linear + start.fluid_velocity;
     let angular = plate * start.own_angular;
     if start.locks.is_empty() {

@@ -27,6 +27,17 @@ pub(in crate::coupling) struct JointedSystems {
     springs: Vec<(u32, ImpulseJointHandle, Real)>,
 }
 
+/// A body that joints hold.
+#[derive(Clone, Copy)]
+pub(in crate::coupling) struct Jointed {
+    pub number: u32,
+    /// Whether a spring swings too fast for the step: its last pull says nothing about the next.
+    pub unresolved: bool,
+}
+
+/// `k dt²/m` from which on a step does not resolve a spring: a tenth of its period, (2π/10)².
+const STIFF: Real = 0.4;
+
 /// What is known of a system.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::coupling) struct SystemKind {
@@ -138,15 +149,16 @@ impl JointedSystems {
         }
     }
 
-    /// Looks at the joints of a body; its number, if it has any that are enabled.
+    /// Looks at the joints of a body; `None` if none is enabled.
     pub fn enter(
         &mut self,
         state: usize,
         handle: RigidBodyHandle,
         sets: &RapierSets,
         registry: &Registry,
-    ) -> Option<u32> {
+    ) -> Option<Jointed> {
         let mut number = None;
+        let mut unresolved = false;
         for (first, second, joint_handle, joint) in
             sets.impulse_joints.attached_enabled_joints(handle)
         {
@@ -156,6 +168,10 @@ impl JointedSystems {
             if joint.data.motor_axes.is_empty() {
                 continue;
             }
+            let stiffness = joint.data.motors[JointAxis::LinX as usize].stiffness;
+            let dt = sets.integration_parameters.dt;
+            let mass = sets.bodies.get(handle).map_or(0.0, RigidBody::mass);
+            unresolved |= stiffness * dt * dt > STIFF * mass;
             if !is_spring(&joint.data) {
                 self.drive(own);
             } else if first == handle || met != Other::Member {
@@ -179,7 +195,7 @@ impl JointedSystems {
                 }
             }
         }
-        number
+        number.map(|number| Jointed { number, unresolved })
     }
 
     /// Takes the body at the other end of a joint into account.

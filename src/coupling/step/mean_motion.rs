@@ -85,7 +85,11 @@ impl MeanMotion {
             locked_axes::linear(input.locks),
         );
         // Turns about two axes add up to some about the third; those about one axis do not leave it.
-        if (input.locks & LockedAxes::ROTATION_LOCKED).bits().count_ones() > 1 {
+        if (input.locks & LockedAxes::ROTATION_LOCKED)
+            .bits()
+            .count_ones()
+            > 1
+        {
             let locked = locked_axes::angular(input.locks);
             keep(&mut motion.mean_angular, start.1, locked);
         }

@@ -41,7 +41,7 @@ pub(super) fn prepare(
     if !to.registry.moves(index) || !body.is_dynamic() || body.is_sleeping() {
         return None;
     }
-    let system = if to.context.joints {
+    let joints = if to.context.joints {
         to.systems.enter(index, handle, sets, to.registry)
     } else {
         None
@@ -53,7 +53,7 @@ pub(super) fn prepare(
     } else {
         None
     };
-    let jointed = system.is_some();
+    let jointed = joints.is_some();
     let locks = body.locked_axes();
     let touching = normal.is_some() || jointed || locks != LockedAxes::empty();
     let dt = to.context.dt;
@@ -91,10 +91,10 @@ pub(super) fn prepare(
     // Locks alone are obeyed by the integrator.
     let locked = !locks.is_empty() && !jointed && normal.is_none();
     let free = !touching || slack || locked;
-    if let Some(system) = system
+    if let Some(joints) = joints
         && (normal.is_some() || moves_along(locks, body))
     {
-        to.systems.drive(system);
+        to.systems.drive(joints.number);
     }
 
     let rapier_attitude = *body.rotation() * shared.axes;
@@ -116,7 +116,8 @@ pub(super) fn prepare(
         (linear, angular)
     };
     let impulse = match normal {
-        _ if jointed => constraint_impulse::of_step(flight, body, dt),
+        _ if joints.is_some_and(|joints| joints.unresolved) => Vector::ZERO,
+        _ if jointed => constraint_impulse::of_step(flight, angular, dt),
         Some(normal) => {
             let expected = friction::expected(shared, body, flight, normal, solver_mass, sets);
             flight.constraint_impulse = expected;
@@ -156,7 +157,7 @@ pub(super) fn prepare(
         may_sleep: touching,
         in_contact: normal.is_some(),
         locked,
-        system: system.unwrap_or(NONE),
+        system: joints.map_or(NONE, |joints| joints.number),
         linked,
         locks,
         own_substeps: body.additional_solver_iterations() as u32,
@@ -191,6 +192,7 @@ fn moves_along(locks: LockedAxes, body: &RigidBody) -> bool {
 fn continues(flight: &FlightState, body: &RigidBody, rapier_attitude: Rotation) -> bool {
     let kept = Rotation::from_array(flight.motion.attitude);
     flight.continues
+        && !flight.was_held
         && body.linear_damping() == 0.0
         && body.angular_damping() == 0.0
         && rapier_attitude.dot(kept).abs() > 1.0 - 1e-4

@@ -159,6 +159,7 @@ fn write_body(
     flight.motion = output.motion;
     flight.end_linear = vector(output.end_linear);
     flight.end_angular = vector(output.end_angular);
+    flight.was_held = jointed && !input.free;
     flight.continues = true;
     Some(saved)
 }
@@ -179,12 +180,7 @@ struct Held<'a> {
 
 impl Held<'_> {
     /// The body before the step. `force` is that which leads to the velocity that was integrated.
-    fn start(
-        &self,
-        body: &RigidBody,
-        flight: &FlightState,
-        force: Vector,
-    ) -> HeldStart {
+    fn start(&self, body: &RigidBody, flight: &FlightState, force: Vector) -> HeldStart {
         let attitude = *body.rotation();
         let (input, output) = (self.input, self.output);
         let (linear, angular) = (vector(input.rapier_linear), vector(input.rapier_angular));

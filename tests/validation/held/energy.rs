@@ -63,12 +63,24 @@ fn check(case: &Case) -> Result<(), TestCaseError> {
     } else {
         f64::INFINITY
     };
+    // A body on a slack rope flies freely. In long steps through an ideal fluid a free one may gain some
+    // thousandths, too: its midpoint rule is solved in two passes.
+    let free = if matches!(case.hold, Hold::SlackRope | Hold::Rope) {
+        let free = Case {
+            hold: Hold::Nothing,
+            ..*case
+        };
+        let (wet, _) = run(&free);
+        wet.most - wet.start
+    } else {
+        0.0
+    };
     // Positions are rounded, and joints pull them straight.
     let volume = 8.0 * case.half.iter().product::<f32>();
     let rounding = 1.2e-7 * case.half[0] / case.dt;
     let floor = f64::from(volume * case.density * (rounding * rounding + 1e-9));
     prop_assert!(
-        wet.most <= wet.start * 1.001 + gain + floor,
+        wet.most <= wet.start * 1.001 + gain.max(free) + floor,
         "{} -> {} J at step {}, twin {} -> {}",
         wet.start,
         wet.most,
@@ -92,39 +104,43 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
     /// Every mask of rapier's six locks. Without what the body keeps moving along a lock, which drives it.
-    /// In steps of up to 0.1 s; of half a second, one body in some two thousand gains half of its energy.
     #[test]
-    fn locked_axes(case in cases((0..64_u8).prop_map(Hold::Locks), To::World, 1e-5, 0.1)) {
+    fn locked_axes(case in cases((0..64_u8).prop_map(Hold::Locks), To::World, 1e-5, 1.0)) {
         check(&case)?;
     }
 
-    /// Ropes that are never taut, and such that are, in steps of up to 5 ms. (At 10 ms, one in some two thousand
-    /// gains 0.13 %.)
+    /// Ropes that are never taut, and such that are.
     #[test]
-    fn ropes(case in cases(prop_oneof![Just(Hold::SlackRope), Just(Hold::Rope)], To::World, 1e-5, 5e-3)) {
+    fn ropes(case in cases(prop_oneof![Just(Hold::SlackRope), Just(Hold::Rope)], To::World, 1e-5, 1.0)) {
         check(&case)?;
     }
 
-    /// Joints to the world.
     #[test]
-    fn joints_to_the_world(case in cases(joints(), To::World, 1e-5, 0.1)) {
+    fn joints_to_the_world(case in cases(joints(), To::World, 1e-5, 1.0)) {
         check(&case)?;
     }
 
-    /// Joints between two bodies in the fluid, in steps of up to 2 ms with two substeps or more. (At 10 ms and
-    /// more, one or two in a thousand bodies that fly several lengths per step gain a tenth to a half of their
-    /// energy.)
     #[test]
-    fn joints_between_bodies(case in cases(joints(), To::Twin, 1e-5, 2e-3)) {
-        let case = Case { iterations: case.iterations.max(2), ..case };
+    fn joints_between_bodies(case in cases(joints(), To::Twin, 1e-5, 1.0)) {
         check(&case)?;
     }
 
-    /// Springs that a step resolves: up to 10 Hz, steps of 1 … 5 ms. (In those of 20 ms, one body in a thousand
-    /// that turns by a radian per step gains thirty times its energy; longer ones pump plain rapier's body, too; in steps of 10 µs one body in a thousand gains 0.2 %, by the rounding of
-    /// impulses that are 10⁻⁵ of its momentum.)
+    /// Multibodies whose root is free. In steps of up to 0.1 s: in longer ones, of which a link makes a turn
+    /// or more, one in ten thousand is quarantined by rapier.
     #[test]
-    fn springs(case in cases((0.1..10.0_f32).prop_map(Hold::Spring), To::World, 1e-3, 5e-3)) {
+    fn joints_of_multibodies(case in cases(joints(), To::Link, 1e-5, 0.1)) {
         check(&case)?;
+    }
+
+    /// Springs that a step resolves by a twentieth of their period. Slower ones pump plain rapier's body as
+    /// well, by its own amount.
+    #[test]
+    fn springs(
+        case in cases((0.1..10.0_f32).prop_map(Hold::Spring), To::World, 1e-5, 0.5),
+        twin in any::<bool>(),
+    ) {
+        let Hold::Spring(frequency) = case.hold else { unreachable!() };
+        let to = if twin { To::Twin } else { To::World };
+        check(&Case { dt: case.dt.min(0.05 / frequency), to, ..case })?;
     }
 }

@@ -6,3 +6,4 @@ mod friction;
 mod joints;
 mod locked;
 mod swing;
+mod windmill;
