@@ -71,8 +71,8 @@ pub(super) struct FlightState {
     pub constraint_time: Real,
     /// Whether that impulse turns with the body.
     pub constraint_turns: bool,
-    /// Change of angular momentum that the joints caused in the last step, N·m·s, world axes.
-    pub constraint_moment: Vector,
+    /// Change of the angular velocity that the joints caused in the last step, rad/s, world axes.
+    pub constraint_turn: Vector,
     /// Energy that rounding and the finite step have lost to a jointed body, J: what they may give back.
     pub energy_reserve: Real,
     /// Steps in a row in which the body was in contact.
@@ -100,7 +100,7 @@ impl FlightState {
         self.constraint_impulse = Vector::ZERO;
         self.constraint_time = 0.0;
         self.constraint_turns = false;
-        self.constraint_moment = Vector::ZERO;
+        self.constraint_turn = Vector::ZERO;
         self.fluid_force = Vector::ZERO;
         self.energy_reserve = 0.0;
         self.contact_steps = 0;

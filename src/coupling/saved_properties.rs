@@ -140,7 +140,7 @@ impl SavedProperties {
         bodies: &mut RigidBodySet,
         colliders: &mut ColliderSet,
     ) {
-        let properties = constants.wet(mass).to_mass_properties();
+        let properties = constants.rapier_properties(mass);
         let mut carried = false;
         for (handle, _) in &self.colliders {
             let Some(collider) = colliders.get_mut(*handle) else {

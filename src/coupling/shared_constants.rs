@@ -160,6 +160,8 @@ pub(super) struct SharedConstants {
     pub heavy_fluid: bool,
     /// Inverse of the 6×6 mass of body and fluid about the center of mass, body axes.
     pub inverse_mass: Matrix6<f64>,
+    /// What rapier is given, but for the mass.
+    wet_properties: MassProperties,
     /// 𝕄₁₁ by its principal axes.
     pub principal_mass: PrincipalMass,
     /// Whether a push at the center of mass turns the body (A₁₂ ≠ 0).
@@ -230,7 +232,13 @@ impl SharedConstants {
         if !step.is_finite() {
             return Err(Error::BeyondSinglePrecision { mass, length });
         }
+        let wet = DryMass {
+            mass: dry.mass,
+            center: dry.center,
+            inertia: dry.inertia + constants.added_mass.angular,
+        };
         Ok(Self {
+            wet_properties: wet.to_mass_properties(),
             description,
             body: body.clone(),
             step,
@@ -253,6 +261,13 @@ impl SharedConstants {
             center: dry.center,
             inertia: dry.inertia + self.constants.added_mass.angular,
         }
+    }
+
+    /// The same as rapier's mass properties.
+    pub fn rapier_properties(&self, mass: f64) -> MassProperties {
+        let mut properties = self.wet_properties;
+        properties.inv_mass = if mass == 0.0 { 0.0 } else { 1.0 / mass as f32 };
+        properties
     }
 
     /// The torque that causes in rapier, whose inertia tensor is `rapier`'s, what `torque` would

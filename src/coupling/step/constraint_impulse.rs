@@ -56,7 +56,7 @@ pub(super) fn joint_mass(shared: &SharedConstants, body: &RigidBody, impulse: Ve
     if length > 0.0 {
         contact_mass::mass_along(shared, body, impulse / length)
     } else {
-        shared.principal_mass.masses.max()
+        shared.principal_mass.masses.max_element().into()
     }
 }
 
@@ -69,7 +69,8 @@ pub(super) fn is_slack(shared: &SharedConstants, body: &RigidBody, flight: &Flig
     let turning = (inertia.m11 + inertia.m22 + inertia.m33) * body.angvel().length();
     flight.constraint_time > 0.0
         && flight.constraint_impulse.length() <= SLACK * momentum
-        && flight.constraint_moment.length() <= SLACK * turning
+        && held_motion::turned(shared, *body.rotation(), flight.constraint_turn).length()
+            <= SLACK * turning
 }
 
 /// The impulse that the coming step counts on. After a longer step the impulse is that of a shorter time; after
@@ -100,22 +101,15 @@ fn turned_by(v: Vector, turn: Vector) -> Vector {
     Rotation::from_scaled_axis(turn) * v
 }
 
-/// What the constraints of a body did in a step. World axes, N·s and N·m·s.
-#[derive(Clone, Copy)]
-pub(super) struct Learnt {
-    pub impulse: Vector,
-    pub moment: Vector,
-}
-
 /// Learns from rapier's step what the joints of a body did, and sets its velocity right where they have
-/// opened.
+/// opened. Returns their impulse, N·s, world axes.
 pub(super) fn learn(
     shared: &SharedConstants,
     body: &mut RigidBody,
     flight: &mut FlightState,
     start: &HeldStart,
     dt: Real,
-) -> Learnt {
+) -> Vector {
     let locked = locked_axes::linear(start.locks);
     let undamped = body.linvel() * (1.0 + dt * body.linear_damping());
     let mut surprise = undamped - start.linear - start.expected_change;
@@ -133,31 +127,26 @@ pub(super) fn learn(
         let with_body = impulse - turned_by(last, mean_turn);
         flight.constraint_turns = with_body.length_squared() < (impulse - last).length_squared();
     }
-    let heavy = f64::from(solver_mass);
     let attitude = start.attitude;
     let masses = &shared.principal_mass;
     let opened =
         expected != Vector::ZERO && impulse.dot(expected) < OPEN * expected.length_squared();
     flight.constraint_time = dt;
     let turned = body.angvel() * (1.0 + dt * body.angular_damping());
-    let unexpected = turned - start.angular - start.expected_turn;
-    flight.constraint_moment = held_motion::turned(shared, attitude, unexpected);
+    flight.constraint_turn = turned - start.angular - start.expected_turn;
     if opened {
-        let right = masses.scale(attitude, surprise, |mass| 1.0 / mass - 1.0 / heavy);
+        let right = masses.scale(attitude, surprise, |mass| 1.0 / mass - 1.0 / solver_mass);
         if !start.linked {
             body.set_linvel(body.linvel() + right, false);
         }
         flight.constraint_impulse = impulse;
     } else {
-        let learnt = masses.scale(attitude, surprise, |mass| (mass / heavy).min(1.0));
+        let learnt = masses.scale(attitude, surprise, |mass| (mass / solver_mass).min(1.0));
         flight.constraint_impulse = expected + learnt;
     }
-    if !(flight.constraint_impulse + flight.constraint_moment).is_finite() {
+    if !(flight.constraint_impulse + flight.constraint_turn).is_finite() {
         flight.constraint_impulse = Vector::ZERO;
-        flight.constraint_moment = Vector::ZERO;
+        flight.constraint_turn = Vector::ZERO;
     }
-    Learnt {
-        impulse,
-        moment: flight.constraint_moment,
-    }
+    impulse
 }

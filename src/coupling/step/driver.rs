@@ -41,8 +41,11 @@ pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierS
         integrator: parts.integrator,
     };
     parts.workspace.forget_bodies();
-    let states = parts.registry.states().len();
-    parts.workspace.systems.clear(states);
+    if context.joints {
+        parts.workspace.systems.find(sets, parts.registry);
+    } else {
+        parts.workspace.systems.clear();
+    }
     let heavy_fluid = parts.constants.heavy_fluid;
     contact_mass::find_close(
         parts.registry,

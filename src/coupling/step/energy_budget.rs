@@ -29,7 +29,7 @@
 //! turns damp nothing; up to a quarter where a spring swings, whose energy a step of a tenth of its period
 //! changes by so much within the swing.
 
-use super::constraint_impulse::Learnt;
+use super::held_motion;
 use super::jointed_systems::{SystemKind, spring_energy};
 use super::workspace::{HeldEnd, HeldStart, Workspace};
 use crate::coupling::body_state::BodyState;
@@ -72,13 +72,16 @@ fn energy_at(
     kinetic_energy(shared, back * linear, back * angular)
 }
 
-/// What a jointed body has after the step.
+/// What a jointed body has after the step. `impulse` is that of its joints, `turn` the change of its angular
+/// velocity that they caused; `driven` whether something drives its system.
 pub(super) fn measure(
     shared: &SharedConstants,
     body: &RigidBody,
     start: &HeldStart,
     number: u32,
-    did: &Learnt,
+    impulse: Vector,
+    turn: Vector,
+    driven: bool,
     dt: Real,
 ) -> HeldEnd {
     let relative = body.linvel() - start.fluid_velocity;
@@ -96,8 +99,12 @@ pub(super) fn measure(
         start: number,
         energy: energy_at(shared, *body.rotation(), relative, body.angvel()),
         without_joints,
-        work_in_flow: -did.impulse.dot(start.fluid_velocity),
-        work: did.impulse.dot(mean) + did.moment.dot(mean_turn),
+        work: if driven {
+            let moment = held_motion::turned(shared, start.attitude, turn);
+            impulse.dot(mean) + moment.dot(mean_turn)
+        } else {
+            -impulse.dot(start.fluid_velocity)
+        },
     }
 }
 
@@ -170,21 +177,15 @@ pub(super) fn keep(
     energies.resize(systems.len(), SystemEnergy::default());
     for end in held_ends.iter() {
         let start = &held[end.start as usize];
-        let first = systems.first_of(start.system);
-        let kind = systems.kind(first);
+        let (first, kind) = systems.system(start.system);
         let index = kind.sum_of(start.system, first);
-        let work = if kind.driven {
-            end.work
-        } else {
-            end.work_in_flow
-        };
         let Some((state, shared)) = body_of(start, registry, constants) else {
             continue;
         };
         let sum = &mut energies[index as usize];
         sum.bodies += 1.0;
         sum.energy += end.energy;
-        sum.allowed += end.without_joints + work + state.flight.energy_reserve;
+        sum.allowed += end.without_joints + end.work + state.flight.energy_reserve;
         if kind.anchored
             && start.fluid_velocity != Vector::ZERO
             && let Some(body) = sets.bodies.get(start.handle)
@@ -194,27 +195,25 @@ pub(super) fn keep(
             sum.of_world += energy_at(shared, attitude, body.linvel(), body.angvel());
         }
     }
-    for &(number, joint, before) in systems.springs() {
-        let first = systems.first_of(number);
-        if !systems.kind(first).driven
-            && let Some(joint) = sets.impulse_joints.get(joint)
+    for spring in systems.springs() {
+        let (first, kind) = systems.system(spring.body);
+        if !kind.driven
+            && let Some(joint) = sets.impulse_joints.get(spring.joint)
         {
             let sum = &mut energies[first as usize];
-            sum.allowed += before;
-            sum.stored += spring_energy(&joint.data, sets.bodies, [joint.body1(), joint.body2()]);
+            sum.allowed += spring.energy;
+            sum.stored += spring_energy(joint, sets.bodies);
         }
     }
     for number in 0..systems.len() as u32 {
-        let first = systems.first_of(number);
-        let kind = systems.kind(first);
+        let (first, kind) = systems.system(number);
         if kind.sum_of(number, first) == number {
             energies[number as usize].settle(kind);
         }
     }
     for end in held_ends.iter() {
         let start = &held[end.start as usize];
-        let first = systems.first_of(start.system);
-        let kind = systems.kind(first);
+        let (first, kind) = systems.system(start.system);
         let sum = &energies[kind.sum_of(start.system, first) as usize];
         let Some((state, _)) = body_of(start, registry, constants) else {
             continue;

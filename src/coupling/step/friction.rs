@@ -56,8 +56,7 @@ pub(super) fn expected(
     } else {
         return Vector::ZERO;
     };
-    let heavy = f64::from(solver_mass);
-    let lighter = |mass: f64| f64::from(u8::from(mass < heavy));
+    let lighter = |mass: Real| f32::from(u8::from(mass < solver_mass));
     let friction = across(masses.scale(attitude, wanted, lighter));
     if shared.heavy_fluid {
         return friction;

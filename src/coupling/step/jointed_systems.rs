@@ -7,29 +7,44 @@ use crate::coupling::body_state::NONE;
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use rapier3d::dynamics::{
-    GenericJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, RigidBody,
-    RigidBodyHandle, RigidBodySet,
+    GenericJoint, ImpulseJoint, ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel,
+    RigidBody, RigidBodyHandle, RigidBodySet,
 };
-use rapier3d::math::Real;
+use rapier3d::math::{Real, Vector};
 
 /// The jointed bodies of a step, by the systems that they form.
 #[derive(Clone, Default)]
 pub(in crate::coupling) struct JointedSystems {
     /// Number of a body among the jointed ones, by index of its state; `NONE` of the others.
     numbers: Vec<u32>,
-    /// Index of the state, by number.
-    states: Vec<u32>,
-    /// Another body of the system, by number; a body that names itself is the system's first.
-    parents: Vec<u32>,
-    /// What is known of a system, at its first body.
-    kinds: Vec<SystemKind>,
-    /// The springs, each with a body that it holds.
-    springs: Vec<(u32, ImpulseJointHandle, Real)>,
+    /// The bodies, by number.
+    members: Vec<Member>,
+    springs: Vec<Spring>,
+}
+
+#[derive(Clone, Copy)]
+struct Member {
+    /// Index of its state.
+    state: u32,
+    /// Another body of its system, by number; the first of a system names itself.
+    parent: u32,
+    unresolved: bool,
+    /// What is known of the system, at its first body.
+    kind: SystemKind,
+}
+
+/// A spring, one of the bodies that it holds, and what it stores before the step, J.
+#[derive(Clone, Copy)]
+pub(in crate::coupling) struct Spring {
+    pub body: u32,
+    pub joint: ImpulseJointHandle,
+    pub energy: Real,
 }
 
 /// A body that joints hold.
 #[derive(Clone, Copy)]
 pub(in crate::coupling) struct Jointed {
+    /// Its number among those that joints hold.
     pub number: u32,
     /// Whether a spring swings too fast for the step: its last pull says nothing about the next.
     pub unresolved: bool,
@@ -61,58 +76,96 @@ impl SystemKind {
             first
         }
     }
+
+    fn join(&mut self, other: Self) {
+        self.driven |= other.driven;
+        self.anchored |= other.anchored;
+        self.sprung |= other.sprung;
+        self.linked |= other.linked;
+    }
+}
+
+/// What a body at the end of a joint is.
+#[derive(Clone, Copy)]
+enum End {
+    /// In the fluid and awake: its number.
+    Member(u32),
+    /// Does not move, or is asleep.
+    Still,
+    /// Moves otherwise.
+    Foreign,
 }
 
 impl JointedSystems {
-    /// Begins a step with so many states.
-    pub fn clear(&mut self, states: usize) {
-        for state in self.states.drain(..) {
-            if let Some(number) = self.numbers.get_mut(state as usize) {
+    /// Forgets the bodies of the last step.
+    pub fn clear(&mut self) {
+        for member in self.members.drain(..) {
+            if let Some(number) = self.numbers.get_mut(member.state as usize) {
                 *number = NONE;
             }
         }
-        if self.numbers.len() != states {
-            self.numbers.resize(states, NONE);
-        }
-        self.parents.clear();
-        self.kinds.clear();
         self.springs.clear();
+    }
+
+    /// Looks at all joints.
+    pub fn find(&mut self, sets: &RapierSets, registry: &Registry) {
+        self.clear();
+        self.numbers.resize(registry.states().len(), NONE);
+        for (handle, joint) in sets.impulse_joints.iter() {
+            if joint.data.is_enabled() {
+                let bodies = [joint.body1(), joint.body2()];
+                let ends = bodies.map(|body| self.end(body, sets, registry));
+                self.connect(ends);
+                self.drive_by(handle, joint, ends, sets);
+            }
+        }
+        for multibody in sets.multibody_joints.multibodies() {
+            for link in multibody.links() {
+                let own = self.end(link.rigid_body_handle(), sets, registry);
+                let above = link.parent_id().and_then(|id| multibody.link(id));
+                let above = above.map(|above| self.end(above.rigid_body_handle(), sets, registry));
+                self.connect([own, above.unwrap_or(own)]);
+                if let End::Member(own) = own {
+                    let joint = link.joint();
+                    let springs = (0..6).any(|axis| joint.spring(axis).0 != 0.0);
+                    self.mark(own, |kind| {
+                        kind.linked = true;
+                        kind.driven |= springs || !joint.data.motor_axes.is_empty();
+                    });
+                }
+            }
+        }
+    }
+
+    /// A body's place among the jointed ones; `None` if no joint holds it.
+    #[inline(always)]
+    pub fn get(&self, state: usize) -> Option<Jointed> {
+        let number = *self.numbers.get(state)?;
+        let member = self.members.get(number as usize)?;
+        Some(Jointed {
+            number,
+            unresolved: member.unresolved,
+        })
     }
 
     /// Number of bodies.
     pub fn len(&self) -> usize {
-        self.parents.len()
+        self.members.len()
     }
 
-    /// The first body of the system of a body.
-    pub fn first(&mut self, mut number: u32) -> u32 {
+    /// The first body of the system of a body, and what is known of the system.
+    pub fn system(&self, mut number: u32) -> (u32, SystemKind) {
         loop {
-            let parent = self.parents[number as usize];
-            if parent == number {
-                return number;
+            let member = &self.members[number as usize];
+            if member.parent == number {
+                return (number, member.kind);
             }
-            // Halves the way for those who ask later.
-            let next = self.parents[parent as usize];
-            self.parents[number as usize] = next;
-            number = next;
+            number = member.parent;
         }
     }
 
-    /// The same where nothing is to be changed.
-    pub fn first_of(&self, mut number: u32) -> u32 {
-        while self.parents[number as usize] != number {
-            number = self.parents[number as usize];
-        }
-        number
-    }
-
-    /// What is known of the system whose first body is `first`.
-    pub fn kind(&self, first: u32) -> SystemKind {
-        self.kinds[first as usize]
-    }
-
-    /// Potential energies of the springs before the step, and the systems that have them.
-    pub fn springs(&self) -> &[(u32, ImpulseJointHandle, Real)] {
+    /// The springs.
+    pub fn springs(&self) -> &[Spring] {
         &self.springs
     }
 
@@ -121,122 +174,111 @@ impl JointedSystems {
         self.mark(number, |kind| kind.driven = true);
     }
 
+    fn first(&mut self, mut number: u32) -> u32 {
+        loop {
+            let parent = self.members[number as usize].parent;
+            if parent == number {
+                return number;
+            }
+            // Halves the way for those who ask later.
+            let next = self.members[parent as usize].parent;
+            self.members[number as usize].parent = next;
+            number = next;
+        }
+    }
+
     fn mark(&mut self, number: u32, mark: impl FnOnce(&mut SystemKind)) {
         let first = self.first(number);
-        mark(&mut self.kinds[first as usize]);
+        mark(&mut self.members[first as usize].kind);
     }
 
-    fn number(&mut self, state: usize) -> u32 {
-        if self.numbers[state] == NONE {
-            self.numbers[state] = self.parents.len() as u32;
-            self.states.push(state as u32);
-            self.parents.push(self.numbers[state]);
-            self.kinds.push(SystemKind::default());
-        }
-        self.numbers[state]
-    }
-
-    fn connect(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.first(a), self.first(b));
-        if a != b {
-            let other = self.kinds[b as usize];
-            let kind = &mut self.kinds[a as usize];
-            kind.driven |= other.driven;
-            kind.anchored |= other.anchored;
-            kind.sprung |= other.sprung;
-            kind.linked |= other.linked;
-            self.parents[b as usize] = a;
-        }
-    }
-
-    /// Looks at the joints of a body; `None` if none is enabled.
-    pub fn enter(
-        &mut self,
-        state: usize,
-        handle: RigidBodyHandle,
-        sets: &RapierSets,
-        registry: &Registry,
-    ) -> Option<Jointed> {
-        let mut number = None;
-        let mut unresolved = false;
-        for (first, second, joint_handle, joint) in
-            sets.impulse_joints.attached_enabled_joints(handle)
-        {
-            let own = *number.get_or_insert_with(|| self.number(state));
-            let other = if first == handle { second } else { first };
-            let met = self.meet(own, other, sets, registry);
-            if joint.data.motor_axes.is_empty() {
-                continue;
-            }
-            let stiffness = joint.data.motors[JointAxis::LinX as usize].stiffness;
-            let dt = sets.integration_parameters.dt;
-            let mass = sets.bodies.get(handle).map_or(0.0, RigidBody::mass);
-            unresolved |= stiffness * dt * dt > STIFF * mass;
-            if !is_spring(&joint.data) {
-                self.drive(own);
-            } else if first == handle || met != Other::Member {
-                let energy = spring_energy(&joint.data, sets.bodies, [first, second]);
-                self.springs.push((own, joint_handle, energy));
-                self.mark(own, |kind| kind.sprung = true);
-            }
-        }
-        if let Some(id) = sets.multibody_joints.rigid_body_link(handle)
-            && let Some(multibody) = sets.multibody_joints.get_multibody(id.multibody)
-            && let Some(link) = multibody.link(id.id)
-        {
-            let own = *number.get_or_insert_with(|| self.number(state));
-            self.mark(own, |kind| kind.linked = true);
-            let above = link.parent_id().and_then(|id| multibody.link(id));
-            if let Some(above) = above {
-                self.meet(own, above.rigid_body_handle(), sets, registry);
-                let springs = (0..6).any(|axis| link.joint().spring(axis).0 != 0.0);
-                if !link.joint().data.motor_axes.is_empty() || springs {
-                    self.drive(own);
-                }
-            }
-        }
-        number.map(|number| Jointed { number, unresolved })
-    }
-
-    /// Takes the body at the other end of a joint into account.
-    fn meet(
-        &mut self,
-        own: u32,
-        other: RigidBodyHandle,
-        sets: &RapierSets,
-        registry: &Registry,
-    ) -> Other {
-        let Some(body) = sets.bodies.get(other) else {
-            return Other::Fixed;
+    fn end(&mut self, handle: RigidBodyHandle, sets: &RapierSets, registry: &Registry) -> End {
+        let Some(body) = sets.bodies.get(handle) else {
+            return End::Still;
         };
         if !body.is_dynamic() {
             let still = body.is_fixed() || stands_still(body);
-            self.mark(own, |kind| {
-                kind.anchored = true;
-                kind.driven |= !still;
-            });
-            return Other::Fixed;
+            return if still { End::Still } else { End::Foreign };
         }
-        match registry.index(other).filter(|index| registry.moves(*index)) {
-            Some(index) => {
-                let other = self.number(index);
-                self.connect(own, other);
-                Other::Member
+        if body.is_sleeping() {
+            return End::Still;
+        }
+        let Some(state) = registry
+            .index(handle)
+            .filter(|state| registry.moves(*state))
+        else {
+            return End::Foreign;
+        };
+        if self.numbers[state] == NONE {
+            let number = self.members.len() as u32;
+            self.numbers[state] = number;
+            self.members.push(Member {
+                state: state as u32,
+                parent: number,
+                unresolved: false,
+                kind: SystemKind::default(),
+            });
+        }
+        End::Member(self.numbers[state])
+    }
+
+    fn connect(&mut self, ends: [End; 2]) {
+        match ends {
+            [End::Member(a), End::Member(b)] => {
+                let (a, b) = (self.first(a), self.first(b));
+                if a != b {
+                    let other = self.members[b as usize].kind;
+                    self.members[a as usize].kind.join(other);
+                    self.members[b as usize].parent = a;
+                }
             }
-            None => {
+            [End::Member(own), End::Still] | [End::Still, End::Member(own)] => {
+                self.mark(own, |kind| kind.anchored = true);
+            }
+            [End::Member(own), End::Foreign] | [End::Foreign, End::Member(own)] => {
+                self.mark(own, |kind| {
+                    kind.driven = true;
+                    kind.anchored = true;
+                });
+            }
+            _ => {}
+        }
+    }
+
+    /// Takes a joint's motors into account.
+    fn drive_by(
+        &mut self,
+        handle: ImpulseJointHandle,
+        joint: &ImpulseJoint,
+        ends: [End; 2],
+        sets: &RapierSets,
+    ) {
+        if joint.data.motor_axes.is_empty() {
+            return;
+        }
+        let dt = sets.integration_parameters.dt;
+        let stiffness = joint.data.motors[JointAxis::LinX as usize].stiffness;
+        let bodies = [joint.body1(), joint.body2()];
+        let mut stored = false;
+        for (end, body) in ends.into_iter().zip(bodies) {
+            let End::Member(own) = end else {
+                continue;
+            };
+            let mass = sets.bodies.get(body).map_or(0.0, RigidBody::mass);
+            self.members[own as usize].unresolved |= stiffness * dt * dt > STIFF * mass;
+            if !is_spring(&joint.data) {
                 self.drive(own);
-                Other::Foreign
+            } else if !stored {
+                stored = true;
+                self.mark(own, |kind| kind.sprung = true);
+                self.springs.push(Spring {
+                    body: own,
+                    joint: handle,
+                    energy: spring_energy(joint, sets.bodies),
+                });
             }
         }
     }
-}
-
-/// What a body at the other end of a joint is.
-#[derive(Clone, Copy, PartialEq)]
-enum Other {
-    Fixed,
-    Member,
-    Foreign,
 }
 
 fn stands_still(body: &RigidBody) -> bool {
@@ -255,15 +297,15 @@ fn is_spring(joint: &GenericJoint) -> bool {
 }
 
 /// `½k(l − l₀)²`, J.
-pub(super) fn spring_energy(
-    joint: &GenericJoint,
-    bodies: &RigidBodySet,
-    ends: [RigidBodyHandle; 2],
-) -> Real {
-    let motor = &joint.motors[JointAxis::LinX as usize];
-    let anchors = [joint.local_anchor1(), joint.local_anchor2()];
-    let at = |i: usize| bodies.get(ends[i]).map(|body| body.position() * anchors[i]);
-    let (Some(a), Some(b)) = (at(0), at(1)) else {
+pub(super) fn spring_energy(joint: &ImpulseJoint, bodies: &RigidBodySet) -> Real {
+    let motor = &joint.data.motors[JointAxis::LinX as usize];
+    let end = |body: RigidBodyHandle, anchor: Vector| {
+        let body = bodies.get(body);
+        body.map(|body| body.position() * anchor)
+    };
+    let a = end(joint.body1(), joint.data.local_anchor1());
+    let b = end(joint.body2(), joint.data.local_anchor2());
+    let (Some(a), Some(b)) = (a, b) else {
         return 0.0;
     };
     let stretch = (b - a).length() - motor.target_pos;

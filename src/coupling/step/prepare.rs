@@ -17,6 +17,9 @@ use rapier3d::math::{Real, Rotation, Vector};
 const ROUNDING: Real = 2e-6;
 /// Change of the solver's mass near contacts that is worth telling rapier.
 const MASS_CHANGE: Real = 0.02;
+/// The same for jointed bodies, whose joints are counted on from step to step: the mass decides only how fast
+/// that settles.
+const JOINTED_MASS_CHANGE: Real = 0.1;
 
 /// What preparation reads, and where it puts bodies.
 pub(super) struct Preparation<'a> {
@@ -38,15 +41,18 @@ pub(super) fn prepare(
 ) -> Option<Route> {
     let index = to.registry.index(handle)?;
     let body = sets.bodies.get(handle)?;
-    if !to.registry.moves(index) || !body.is_dynamic() || body.is_sleeping() {
+    if !body.is_dynamic() || body.is_sleeping() {
         return None;
     }
     let joints = if to.context.joints {
-        to.systems.enter(index, handle, sets, to.registry)
+        to.systems.get(index)
     } else {
         None
     };
     let state = to.registry.at_mut(index)?;
+    if state.saved.is_none() {
+        return None;
+    }
     let shared = to.constants.get(state.constants)?;
     let normal = if to.close.contains(index) {
         contact_mass::normal(shared, body, sets)
@@ -75,7 +81,12 @@ pub(super) fn prepare(
         }
         None => shared.constants.dry.mass as Real,
     };
-    let new_mass = (wanted_mass - flight.solver_mass).abs() > MASS_CHANGE * wanted_mass;
+    let change = if jointed {
+        JOINTED_MASS_CHANGE
+    } else {
+        MASS_CHANGE
+    };
+    let new_mass = (wanted_mass - flight.solver_mass).abs() > change * wanted_mass;
     let solver_mass = if new_mass {
         wanted_mass
     } else {

@@ -221,9 +221,8 @@ pub(in crate::coupling) struct HeldEnd {
     /// Kinetic energy of body and fluid, J, and what it would be without the joints.
     pub energy: Real,
     pub without_joints: Real,
-    /// Work of the joints, J: by the body's own velocity, and by that of the fluid.
+    /// Work of the joints, J.
     pub work: Real,
-    pub work_in_flow: Real,
 }
 
 /// Bodies of one route that are moved together.

@@ -90,26 +90,33 @@ fn write_body(
     };
     let (mut force, mut torque) = (force, torque);
     let jointed = input.system != NONE;
-    let held = (!input.free || jointed || input.locked).then(|| Held {
-        shared,
-        input,
-        output,
-        impulse: disturbance.map_or(Vector::ZERO, |d| vector(d.impulse)),
-        user_force: saved.force,
-        user_torque: saved.torque,
-        steady,
-        context: to.context,
-    });
-    let mut start = held.as_ref().map(|held| held.start(body, flight, force));
-    if input.free {
-        let motion = match &start {
-            Some(start) if input.locked => {
-                let plate = Rotation::from_array(output.motion.attitude);
-                let end = held_motion::under_locks(shared, plate, start);
-                Some(MeanMotion::locked(input, output, to.context, end))
-            }
-            _ => MeanMotion::of(input, output, to.context),
+    let mut motion = None;
+    if !input.free || jointed || input.locked {
+        let held = Held {
+            shared,
+            input,
+            output,
+            impulse: disturbance.map_or(Vector::ZERO, |d| vector(d.impulse)),
+            user_force: saved.force,
+            user_torque: saved.torque,
+            steady,
+            context: to.context,
         };
+        let mut start = held.start(body, flight, force);
+        if input.locked {
+            let plate = Rotation::from_array(output.motion.attitude);
+            let end = held_motion::under_locks(shared, plate, &start);
+            motion = Some(MeanMotion::locked(input, output, to.context, end));
+        } else if !input.free {
+            (force, torque) = held.forces(body, flight, &mut start, force, torque);
+        }
+        if jointed {
+            saved.held = to.held.len() as u32;
+            to.held.push(start);
+        }
+    }
+    if input.free {
+        motion = motion.or_else(|| MeanMotion::of(input, output, to.context));
         if let Some(motion) = motion {
             body.set_linvel(motion.mean_linear, false);
             body.set_angvel(motion.mean_angular, false);
@@ -121,12 +128,6 @@ fn write_body(
             body.set_linvel(start_linear, false);
             body.set_angvel(start_angular, false);
         }
-    } else if let (Some(held), Some(start)) = (&held, &mut start) {
-        (force, torque) = held.forces(body, flight, start, force, torque);
-    }
-    if jointed && let Some(start) = start {
-        saved.held = to.held.len() as u32;
-        to.held.push(start);
     }
     if flight.converts_torque && input.locks.is_empty() {
         let rapier = &body.mass_properties().local_mprops;
@@ -179,7 +180,7 @@ struct Held<'a> {
 }
 
 impl Held<'_> {
-    /// The body before the step. `force` is that which leads to the velocity that was integrated.
+    /// The body before the step. Out of the way of free bodies, which most are. `force` is that which leads to the velocity that was integrated.
     fn start(&self, body: &RigidBody, flight: &FlightState, force: Vector) -> HeldStart {
         let attitude = *body.rotation();
         let (input, output) = (self.input, self.output);
@@ -217,6 +218,7 @@ impl Held<'_> {
 
     /// The force and the torque to hand over. `force` and `torque` are those that lead to the velocities
     /// that were integrated.
+    #[inline(never)]
     fn forces(
         &self,
         body: &RigidBody,
@@ -324,6 +326,9 @@ pub(super) fn finish(
     if let Some(motion) = workspace.moved_by_mean.get(saved.mean_motion as usize) {
         motion.finish(body);
     }
+    if saved.held == NONE && !saved.touching {
+        return;
+    }
     let Some(state) = registry.at_mut(saved.state as usize) else {
         return;
     };
@@ -347,10 +352,14 @@ pub(super) fn finish(
             return;
         };
         let dt = sets.integration_parameters.dt;
-        let did = constraint_impulse::learn(shared, body, &mut state.flight, start, dt);
+        let flight = &mut state.flight;
+        let impulse = constraint_impulse::learn(shared, body, flight, start, dt);
         // A body that flew the whole step has the energy that was integrated.
-        if !(start.flies && did.impulse == Vector::ZERO) {
-            let end = energy_budget::measure(shared, body, start, saved.held, &did, dt);
+        if !(start.flies && impulse == Vector::ZERO) {
+            let (_, kind) = workspace.systems.system(start.system);
+            let (turn, driven) = (flight.constraint_turn, kind.driven);
+            let end =
+                energy_budget::measure(shared, body, start, saved.held, impulse, turn, driven, dt);
             workspace.held_ends.push(end);
         }
     }
