@@ -11,9 +11,12 @@ mod ellipsoid;
 mod graded;
 mod panels;
 pub(crate) mod quality;
+mod revolution;
+mod rounded;
 mod sheet;
 mod surface;
 mod tessellate;
+mod voxels;
 
 pub use ellipsoid::Ellipsoid;
 pub use sheet::Sheet;
