@@ -108,7 +108,9 @@ impl RoundBody {
     fn arc(&mut self, (cx, cy): (f64, f64), r: f64, from: f64, to: f64) {
         let integral = |angle: f64| {
             let (sin, cos) = angle.sin_cos();
-            -cx * cx * r * cos + cx * r * r * (angle - sin * cos) + r.powi(3) * (cos.powi(3) / 3.0 - cos)
+            -cx * cx * r * cos
+                + cx * r * r * (angle - sin * cos)
+                + r.powi(3) * (cos.powi(3) / 3.0 - cos)
         };
         self.volume += PI * (integral(to) - integral(from));
         let points = arc(r, from, to);

@@ -324,7 +324,10 @@ mod tests {
             (SharedShape::round_cuboid(0.0, 0.0, 0.0, 0.3), ball),
             (SharedShape::round_cylinder(0.0, 0.0, 0.3), ball),
             (SharedShape::round_cone(0.0, 0.0, 0.3), ball),
-            (SharedShape::round_triangle(Vector::X, Vector::X, Vector::X, 0.3), ball),
+            (
+                SharedShape::round_triangle(Vector::X, Vector::X, Vector::X, 0.3),
+                ball,
+            ),
         ] {
             assert_relative_eq!(volume_of(shape), exact, max_relative = 3e-7);
         }
@@ -383,15 +386,24 @@ mod tests {
     fn lengths_that_cannot_be_are_named() {
         let (nan, infinite) = (f32::NAN, f32::INFINITY);
         for (shape, text) in [
-            (SharedShape::ball(0.0), "radius must be positive and finite, but is 0"),
+            (
+                SharedShape::ball(0.0),
+                "radius must be positive and finite, but is 0",
+            ),
             (SharedShape::ball(nan), "radius"),
             (SharedShape::cuboid(1.0, -2.0, 1.0), "half_extents.y"),
             (SharedShape::capsule_x(1.0, 0.0), "radius"),
             (SharedShape::capsule_x(nan, 1.0), "half height"),
             (SharedShape::cylinder(0.0, 1.0), "half_height"),
             (SharedShape::cone(1.0, infinite), "radius"),
-            (SharedShape::round_cuboid(1.0, 1.0, nan, 0.1), "half_extents.z"),
-            (SharedShape::round_cuboid(1.0, 1.0, 0.0, 0.0), "half_extents.z"),
+            (
+                SharedShape::round_cuboid(1.0, 1.0, nan, 0.1),
+                "half_extents.z",
+            ),
+            (
+                SharedShape::round_cuboid(1.0, 1.0, 0.0, 0.0),
+                "half_extents.z",
+            ),
             (SharedShape::round_cylinder(1.0, 1.0, -0.5), "border_radius"),
             (SharedShape::round_cone(-1.0, 1.0, 0.5), "half_height"),
             (
@@ -402,7 +414,10 @@ mod tests {
                 SharedShape::round_triangle(Vector::X, Vector::Y, Vector::splat(nan), 0.1),
                 "vertex 2 of the mesh is not finite",
             ),
-            (SharedShape::voxels(Vector::new(0.1, 0.0, 0.1), &[IVector::ZERO]), "voxel_size.y"),
+            (
+                SharedShape::voxels(Vector::new(0.1, 0.0, 0.1), &[IVector::ZERO]),
+                "voxel_size.y",
+            ),
         ] {
             let error = Surface::from_shape(shape.as_ref()).unwrap_err().to_string();
             assert!(error.starts_with(text), "{error}");
