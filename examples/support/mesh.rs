@@ -190,9 +190,22 @@ impl RawMesh {
     /// What is wrong with the mesh.
     pub fn solid(&self, thickness: f64) -> Result<Surface, String> {
         match Surface::new(&self.vertices, &self.triangles) {
-            Err(error @ Error::OpenMesh { .. }) => self.thickened(thickness, &error),
+            Err(error @ Error::OpenMesh { .. }) if self.has_border() => {
+                self.thickened(thickness, &error)
+            }
             other => other.map_err(|error| error.to_string()),
         }
+    }
+
+    /// Whether there is an edge with a triangle on one side only. What is open without one is wound both ways.
+    fn has_border(&self) -> bool {
+        let mut uses: HashMap<(u32, u32), u32> = HashMap::new();
+        for [a, b, c] in self.welded().triangles {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                *uses.entry((from.min(to), from.max(to))).or_default() += 1;
+            }
+        }
+        uses.values().any(|count| *count == 1)
     }
 
     fn thickened(&self, thickness: f64, why_no_solid: &Error) -> Result<Surface, String> {

@@ -68,12 +68,7 @@ impl Surface {
             triangles,
         };
         surface.check_closed()?;
-        let integrals = surface.volume_integrals();
-        let size = surface.size();
-        if integrals.volume.abs() <= 1e-12 * size.powi(3) {
-            return Err(Error::NoVolume { size });
-        }
-        if integrals.volume < 0.0 {
+        if surface.check_volume()? < 0.0 {
             for triangle in &mut surface.triangles {
                 triangle.swap(1, 2);
             }
@@ -82,7 +77,7 @@ impl Surface {
     }
 
     /// A surface whose triangles share their vertices by construction: only those at exactly the same place
-    /// are merged, so that no part is too thin beside the whole.
+    /// are merged, so that no part is too thin beside the whole. It faces outward.
     ///
     /// # Errors
     /// Those of [`Surface::new`].
@@ -102,11 +97,16 @@ impl Surface {
             triangles,
         };
         surface.check_closed()?;
-        let volume = surface.volume_integrals().volume;
-        if volume > 0.0 && volume.is_finite() {
-            Ok(surface)
+        surface.check_volume()?;
+        Ok(surface)
+    }
+
+    /// The volume, which must be more than the rounding of a flat mesh's, or less where it is inside out.
+    fn check_volume(&self) -> Result<f64, Error> {
+        let (volume, size) = (self.volume_integrals().volume, self.size());
+        if volume.abs() > 1e-12 * size.powi(3) {
+            Ok(volume)
         } else {
-            let size = surface.size();
             Err(Error::NoVolume { size })
         }
     }

@@ -29,7 +29,8 @@ impl Surface {
     /// [`Error::ShapeWithoutVolume`] names the shapes that enclose nothing (half-space, height
     /// field, polyline, segment, triangle), [`Error::UnknownShape`] a custom shape: make a
     /// [`Surface::new`] of it. An open triangle mesh gives [`Error::OpenMesh`], a length that is negative, zero
-    /// or not finite [`Error::InvalidParameter`].
+    /// or not finite [`Error::InvalidParameter`], and a shape of less than 10⁻¹² of the cube of its size (a
+    /// needle a million times as long as thick) [`Error::NoVolume`].
     ///
     /// ```
     /// use rapier3d_immersed::geometry::Surface;
