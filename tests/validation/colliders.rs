@@ -257,8 +257,8 @@ fn points_inside_agree() {
             "{share} {}",
             inside / all
         );
-        for k in 0..3 {
-            let mean = sums[k] / inside;
+        for (k, sum) in sums.iter().enumerate() {
+            let mean = sum / inside;
             let exact = found.second_moment[(k, k)] / found.volume;
             // The fourth moment is below 3 times the square of the second for bodies without tails.
             let deviation = exact * (2.0 / inside).sqrt();
