@@ -180,7 +180,7 @@ mod tests {
     #[test]
     fn rods_at_any_scale_and_attitude_are_physical() {
         for size in [1e-3, 1.0, 1e3_f64] {
-            let (volume, square) = (size.powi(3) * 1e-8, size * size);
+            let (volume, square) = (0.1 * size.powi(3), size * size);
             let linear = Vector3::new(1e-8, 1.0, 1.0) * volume;
             let angular = Vector3::new(0.0, 0.1, 0.1) * (volume * square);
             for angle in 0..40 {
