@@ -32,9 +32,12 @@ struct Options {
     /// plate, box and ellipsoid: x,y,z (a plate's thinnest extent is its thickness in any order)
     #[arg(long, value_name = "A[,B[,C]]", value_parser = cli::lengths, allow_hyphen_values = true)]
     size: Option<Lengths>,
-    /// OBJ or STL file (metres) for --shape mesh: a closed solid, or an open sheet
+    /// OBJ or STL file for --shape mesh: a closed solid, or an open sheet
     #[arg(long, value_name = "FILE")]
     mesh: Option<PathBuf>,
+    /// Metres per unit of the --mesh, such as 0.001 for millimetres [default: 1, up to 10 m]
+    #[arg(long, value_name = "M", value_parser = cli::positive)]
+    scale: Option<f64>,
     /// Thickness given to a --mesh that is an open sheet, m
     #[arg(long, value_name = "M", default_value = "0.0003", value_parser = cli::positive)]
     thickness: f64,
@@ -107,6 +110,7 @@ fn main() {
         shape,
         options.size.as_ref(),
         options.mesh.as_deref(),
+        options.scale,
         options.thickness,
     )
     .unwrap_or_else(|(flag, problem)| bad_value(flag, problem));

@@ -244,7 +244,8 @@ fn strobe(title: &'static str, semi: Vec3, flight: &Flight, seconds: f64) -> Pan
 }
 
 fn specimen(shape: ShapeName, size: &[f64]) -> Specimen {
-    Specimen::new(shape, Some(&Lengths(size.to_vec())), None, 0.0).expect("the thesis's sizes")
+    Specimen::new(shape, Some(&Lengths(size.to_vec())), None, None, 0.0)
+        .expect("the thesis's sizes")
 }
 
 /// Density of paper, kg/m³.

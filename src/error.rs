@@ -37,6 +37,13 @@ pub enum Error {
         shape: &'static str,
     },
 
+    /// A custom shape of the user's: what it looks like is not known.
+    #[error(
+        "the surface of a custom shape is not known: describe it with geometry::Surface::new and \
+         HydroProperties::from_surface"
+    )]
+    UnknownShape,
+
     /// An added-mass tensor is not finite, not symmetric, or gives some motion negative energy.
     #[error("the added-mass tensor is not symmetric, positive and finite")]
     UnphysicalAddedMass,
@@ -82,8 +89,8 @@ pub enum Error {
 
     /// A mesh is not watertight, or its triangles are not oriented alike.
     #[error(
-        "the mesh is not closed: {open_edges} edges lack a triangle on one side, \
-         the first from {from:?} to {to:?}"
+        "the mesh is not closed: {open_edges} edges lack a triangle on one side, or have two that face \
+         opposite ways, the first from {from:?} to {to:?}"
     )]
     OpenMesh {
         /// Number of such edges.

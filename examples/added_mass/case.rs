@@ -84,28 +84,13 @@ impl Case {
         })
     }
 
-    pub fn load(path: &Path, thickness: Option<f64>) -> Result<Self, String> {
+    pub fn load(path: &Path, scale: Option<f64>, thickness: Option<f64>) -> Result<Self, String> {
         let failed = |e: &dyn std::fmt::Display| format!("--mesh {}: {e}", path.display());
-        let options = tobj::LoadOptions {
-            triangulate: true,
-            single_index: true,
-            ..tobj::LoadOptions::default()
-        };
-        let (models, _) = tobj::load_obj(path, &options).map_err(|e| failed(&e))?;
-        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
-        for mesh in models.iter().map(|m| &m.mesh) {
-            let start = vertices.len() as u32;
-            vertices.extend(
-                mesh.positions
-                    .chunks_exact(3)
-                    .map(|p| Vector3::new(p[0].into(), p[1].into(), p[2].into())),
-            );
-            triangles.extend(
-                mesh.indices
-                    .chunks_exact(3)
-                    .map(|t| [start + t[0], start + t[1], start + t[2]]),
-            );
+        if let Some(bad) = scale.filter(|s| !(*s > 0.0 && s.is_finite())) {
+            return Err(format!("--scale {bad}: must be positive and finite"));
         }
+        let mesh = crate::mesh::load_scaled(path, scale).map_err(|e| format!("--mesh {e}"))?;
+        let (vertices, triangles) = (mesh.vertices, mesh.triangles);
         let body = match thickness {
             Some(thickness) => Sheet::new(&vertices, &triangles, thickness).map(Body::Sheet),
             None => Surface::new(&vertices, &triangles).map(Body::Surface),

@@ -9,6 +9,9 @@
 
 mod case;
 mod error_figure;
+#[allow(dead_code)]
+#[path = "../support/mesh.rs"]
+mod mesh;
 mod picture;
 #[path = "../support/previous.rs"]
 mod previous;
@@ -19,10 +22,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rapier3d_immersed::boundary_element::{
     BoundaryElementParams, BoundaryElementProgress, BoundaryElementSolution,
 };
-use rapier3d_immersed::rapier3d::na::Matrix3;
+use rapier3d_immersed::rapier3d::na::{Matrix3, Vector3};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
+
+/// As `mesh` has it from the module above.
+type Vec3 = Vector3<f64>;
 
 /// Added mass per unit fluid density, about the center of mass of a body of even density.
 #[derive(Parser)]
@@ -34,9 +40,12 @@ struct Options {
     /// cone, capsule), diameter (ball), side,thickness (airplane).
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     size: Vec<f64>,
-    /// A closed triangle mesh (Wavefront OBJ, m) instead of a shape.
+    /// A closed triangle mesh (OBJ or STL) instead of a shape.
     #[arg(long)]
     mesh: Option<PathBuf>,
+    /// Metres per unit of the mesh, such as 0.001 for millimetres [default: 1, up to 10 m].
+    #[arg(long, requires = "mesh", allow_negative_numbers = true)]
+    scale: Option<f64>,
     /// The mesh is a sheet of this thickness, m, and need not be closed.
     #[arg(long, requires = "mesh", allow_negative_numbers = true)]
     thickness: Option<f64>,
@@ -80,7 +89,7 @@ fn run(options: &Options) -> Result<(), String> {
         ));
     }
     let case = match &options.mesh {
-        Some(path) => case::Case::load(path, options.thickness)?,
+        Some(path) => case::Case::load(path, options.scale, options.thickness)?,
         None => case::Case::built_in(options.shape, &options.size)?,
     };
     let params = BoundaryElementParams {

@@ -44,7 +44,43 @@ pub fn load(path: &Path) -> Result<RawMesh, String> {
     mesh.and_then(RawMesh::checked).map_err(problem)
 }
 
+/// Longest mesh, m, that is taken as it is without a word on its unit.
+const LARGEST_UNASKED: f64 = 10.0;
+
+/// [`load`] with the file's unit: `scale` metres per unit. Without one the unit is the metre, and a mesh that
+/// would then be as large as a house is taken for one in millimetres or inches, and refused.
+///
+/// # Errors
+/// Those of [`load`], and a line that names the size.
+pub fn load_scaled(path: &Path, scale: Option<f64>) -> Result<RawMesh, String> {
+    let mut mesh = load(path)?;
+    let extents = mesh.extents();
+    if scale.is_none() && extents.max() > LARGEST_UNASKED {
+        let [x, y, z] = <[f64; 3]>::from(extents).map(|x| format!("{:.3}", x).parse().unwrap_or(x));
+        return Err(format!(
+            "{}: {x} × {y} × {z} m, if its unit is the metre; if it is the millimetre, say --scale 0.001, \
+             and if it is that large, --scale 1",
+            path.display()
+        ));
+    }
+    for vertex in &mut mesh.vertices {
+        *vertex *= scale.unwrap_or(1.0);
+    }
+    Ok(mesh)
+}
+
+/// The text of an OBJ file in ASCII, UTF-8 (with a byte-order mark, too) or an older encoding: only comments
+/// and names have letters beyond ASCII.
+fn text(bytes: &[u8]) -> Result<String, String> {
+    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
+        return Err("its text is in UTF-16: save it as ASCII or UTF-8".into());
+    }
+    let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
+    Ok(String::from_utf8_lossy(bytes).into_owned())
+}
+
 fn read_obj(bytes: &[u8]) -> Result<RawMesh, String> {
+    let text = text(bytes)?;
     let options = tobj::LoadOptions {
         triangulate: true,
         ignore_points: true,
@@ -53,7 +89,7 @@ fn read_obj(bytes: &[u8]) -> Result<RawMesh, String> {
     };
     // Materials are of no use here, wherever they are.
     let no_materials = |_: &Path| Ok(Default::default());
-    let (models, _) = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, no_materials)
+    let (models, _) = tobj::load_obj_buf(&mut Cursor::new(text), &options, no_materials)
         .map_err(|error| format!("not a readable OBJ file: {error}"))?;
     let mut mesh = RawMesh {
         vertices: Vec::new(),
@@ -115,6 +151,14 @@ fn read_stl(bytes: &[u8]) -> Result<RawMesh, String> {
 }
 
 impl RawMesh {
+    /// Extents of the bounding box, m.
+    pub fn extents(&self) -> Vec3 {
+        let start = Vec3::repeat(f64::INFINITY);
+        let fold = |(low, high): (Vec3, Vec3), v: &Vec3| (low.inf(v), high.sup(v));
+        let (low, high) = self.vertices.iter().fold((start, -start), fold);
+        high - low
+    }
+
     fn checked(self) -> Result<Self, String> {
         if let Some(index) = self
             .vertices
@@ -146,12 +190,25 @@ impl RawMesh {
     /// What is wrong with the mesh.
     pub fn solid(&self, thickness: f64) -> Result<Surface, String> {
         match Surface::new(&self.vertices, &self.triangles) {
-            Err(Error::OpenMesh { .. }) => self.thickened(thickness),
+            Err(error @ Error::OpenMesh { .. }) if self.has_border() => {
+                self.thickened(thickness, &error)
+            }
             other => other.map_err(|error| error.to_string()),
         }
     }
 
-    fn thickened(&self, thickness: f64) -> Result<Surface, String> {
+    /// Whether there is an edge with a triangle on one side only. What is open without one is wound both ways.
+    fn has_border(&self) -> bool {
+        let mut uses: HashMap<(u32, u32), u32> = HashMap::new();
+        for [a, b, c] in self.welded().triangles {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                *uses.entry((from.min(to), from.max(to))).or_default() += 1;
+            }
+        }
+        uses.values().any(|count| *count == 1)
+    }
+
+    fn thickened(&self, thickness: f64, why_no_solid: &Error) -> Result<Surface, String> {
         let sheet = self.welded();
         let corner = |i: u32| sheet.vertices[i as usize];
         let mean: Vec3 = sheet
@@ -170,9 +227,9 @@ impl RawMesh {
             .sum();
         // A sheet that is folded onto itself has no side to thicken toward.
         if mean.norm() < 0.1 * area {
-            return Err("the mesh is open, and its triangles face all ways: \
-                        neither a solid nor a sheet"
-                .into());
+            return Err(format!(
+                "neither a solid ({why_no_solid}) nor a sheet (its triangles face all ways)"
+            ));
         }
         let offset = mean.normalize() * (0.5 * thickness);
         sheet.between(&vec![offset; sheet.vertices.len()])
@@ -187,7 +244,10 @@ impl RawMesh {
         let mut normals = vec![(Matrix3::zeros(), Vec3::zeros()); self.vertices.len()];
         for t in &self.triangles {
             let [a, b, c] = t.map(|i| self.vertices[i as usize]);
-            let n = (b - a).cross(&(c - a)).normalize();
+            // A triangle whose corners lie on a line has no normal of its own.
+            let Some(n) = (b - a).cross(&(c - a)).try_normalize(0.0) else {
+                continue;
+            };
             for i in t {
                 let (squares, sum) = &mut normals[*i as usize];
                 *squares += n * n.transpose();

@@ -76,7 +76,7 @@ pub struct Specimen {
 }
 
 impl Specimen {
-    /// Makes a body from `--shape`, `--size` and `--mesh`.
+    /// Makes a body from `--shape`, `--size`, `--mesh` and its `--scale`.
     ///
     /// # Errors
     /// The flag to blame and what is wrong.
@@ -84,6 +84,7 @@ impl Specimen {
         shape: ShapeName,
         size: Option<&Lengths>,
         file: Option<&Path>,
+        scale: Option<f64>,
         sheet_thickness: f64,
     ) -> Result<Self, (&'static str, String)> {
         if shape == ShapeName::Mesh {
@@ -91,7 +92,11 @@ impl Specimen {
             if size.is_some() {
                 return Err(("--size", "a mesh has its own size".into()));
             }
-            return Self::from_mesh(path, sheet_thickness).map_err(|problem| ("--mesh", problem));
+            let body = Self::from_mesh(path, scale, sheet_thickness);
+            return body.map_err(|problem| ("--mesh", problem));
+        }
+        if scale.is_some() {
+            return Err(("--scale", "only with --mesh".into()));
         }
         if file.is_some() {
             return Err(("--mesh", "only with --shape mesh".into()));
@@ -204,8 +209,8 @@ impl Specimen {
         }
     }
 
-    fn from_mesh(path: &Path, sheet_thickness: f64) -> Result<Self, String> {
-        let solid = mesh::load(path)?
+    fn from_mesh(path: &Path, scale: Option<f64>, sheet_thickness: f64) -> Result<Self, String> {
+        let solid = mesh::load_scaled(path, scale)?
             .solid(sheet_thickness)
             .map_err(|problem| format!("{}: {problem}", path.display()))?;
         let solid = mesh::aligned(&solid);

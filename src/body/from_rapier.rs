@@ -2,15 +2,16 @@
 
 use super::DryMass;
 use crate::error::Error;
-use crate::geometry::Surface;
+use crate::geometry::{Surface, rounded_volume};
 use crate::hydro::{Accuracy, HydroProperties};
 use crate::math::{to_f64, to_quaternion, to_real, to_rotation};
 use rapier3d::dynamics::{
     MassProperties, RigidBody, RigidBodyAdditionalMassProps, RigidBodyHandle, RigidBodySet,
 };
-use rapier3d::geometry::{Collider, ColliderSet};
+use rapier3d::geometry::{Collider, ColliderSet, SharedShape};
 use rapier3d::math::{Pose, Vector};
 use rapier3d::na::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use rapier3d::parry::shape::{Shape, TypedShape};
 
 impl HydroProperties {
     /// Properties of all of a body's enabled, solid (not sensor) colliders together, in the body's
@@ -61,6 +62,9 @@ impl DryMass {
     /// Rapier's own sum, and its inertia of convex hulls and meshes, go through an eigenvalue
     /// solver with an absolute threshold, which returns wrong principal axes for inertia tensors
     /// with entries below about 10⁻⁵ kg·m²: every leaf, coin and snowflake (glamx 0.3.1).
+    ///
+    /// A collider with a mass of its own, or a density, has that mass as rapier has it: of a rounded shape with
+    /// a density, the core's ([`DryMass::of_shape`] is that of the whole). It is spread over the whole shape.
     ///
     /// # Errors
     /// [`Error::NoBody`] if the handle is stale; [`Error::InvalidParameter`] if the mass or a
@@ -176,11 +180,86 @@ pub(crate) fn uniform_density(collider: &Collider) -> Option<f32> {
 }
 
 fn of_collider(collider: &Collider, pose: &Pose) -> Result<DryMass, Error> {
-    // A shape without volume of its own can only have been given mass explicitly.
-    match uniform_density(collider) {
-        Some(_) => of_uniform_density(collider, pose, collider.mass().into()),
-        None => Ok(of_mass_properties(&collider.mass_properties(), pose)),
+    // A shape without volume of its own can only have been given mass explicitly. A rounded triangle has
+    // one by its border alone, of which rapier does not know: it makes no inertia of a mass that is set.
+    let properties = collider.mass_properties();
+    let bare_mass = properties.inv_principal_inertia == Vector::ZERO
+        && matches!(
+            collider.shape().as_typed_shape(),
+            TypedShape::RoundTriangle(_)
+        );
+    if bare_mass || uniform_density(collider).is_some() {
+        of_uniform_density(collider, pose, collider.mass().into())
+    } else {
+        Ok(of_mass_properties(&properties, pose))
     }
+}
+
+/// What rapier makes of the density of the rounded shapes of a body, whose border it leaves out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct CoreMass {
+    /// Rapier's mass of the body's colliders, kg.
+    pub rapier: f64,
+    /// What they would have with their borders, kg.
+    pub whole: f64,
+}
+
+impl CoreMass {
+    /// `None` if nothing is left out. Colliders that were given their mass count with it.
+    ///
+    /// # Errors
+    /// [`Error::NoBody`], or what is wrong with a rounded shape.
+    pub fn of_body(
+        bodies: &RigidBodySet,
+        colliders: &ColliderSet,
+        handle: RigidBodyHandle,
+    ) -> Result<Option<Self>, Error> {
+        let body = bodies.get(handle).ok_or(Error::NoBody)?;
+        let mut borders = 0.0;
+        for (collider, _) in attached(body, colliders) {
+            let volume = volume_of_borders(collider.shape())?;
+            if volume != 0.0 && has_density(collider) {
+                borders += f64::from(collider.density()) * volume;
+            }
+        }
+        if borders == 0.0 {
+            return Ok(None);
+        }
+        let masses = attached(body, colliders).map(|(collider, _)| f64::from(collider.mass()));
+        let rapier = masses.sum();
+        Ok(Some(Self {
+            rapier,
+            whole: rapier + borders,
+        }))
+    }
+
+    /// Share of the whole that rapier leaves out.
+    pub fn missing(&self) -> f64 {
+        1.0 - self.rapier / self.whole
+    }
+}
+
+/// The volume that rapier leaves out of a shape's mass, m³.
+fn volume_of_borders(shape: &dyn Shape) -> Result<f64, Error> {
+    if let TypedShape::Compound(compound) = shape.as_typed_shape() {
+        let parts = compound.shapes().iter();
+        return parts
+            .map(|(_, part)| volume_of_borders(part.as_ref()))
+            .sum();
+    }
+    let core = || f64::from(shape.mass_properties(1.0).mass());
+    Ok(rounded_volume(shape)?.map_or(0.0, |whole| whole - core()))
+}
+
+/// Whether a collider's mass follows from a density, and not the density from a mass that was set: rapier does
+/// not say, but the density stays when the shape changes.
+fn has_density(collider: &Collider) -> bool {
+    let mut other = collider.clone();
+    let balls = [0.5, 1.0].map(SharedShape::ball);
+    balls.into_iter().all(|ball| {
+        other.set_shape(ball);
+        other.density() == collider.density()
+    })
 }
 
 /// A collider filled uniformly up to `mass`.
@@ -208,7 +287,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
     use rapier3d::dynamics::RigidBodyBuilder;
-    use rapier3d::geometry::{ColliderBuilder, SharedShape};
+    use rapier3d::geometry::ColliderBuilder;
     use rapier3d::math::Rotation;
 
     /// From a dust grain of 1 µg to a slab of 1 t, a turned box must keep the inertia
@@ -276,6 +355,65 @@ mod tests {
             + 0.5
             + about(3.0, Vector3::y() * 2.0 - center);
         assert_relative_eq!(dry.inertia[(0, 0)], xx, max_relative = 1e-5);
+    }
+
+    /// A rounded cube and a compound with one, by density, mass and mass properties: only what follows from a
+    /// density lacks the border. Steiner: a cube of side a with a border r has a³ + 6a²r + 3πar² + 4π/3 r³.
+    #[test]
+    fn borders_are_left_out_of_what_a_density_gives() {
+        let (a, r) = (0.4, 0.1_f64);
+        let core = a * a * a;
+        let pi = std::f64::consts::PI;
+        let whole = core + 6.0 * a * a * r + 3.0 * pi * a * r * r + 4.0 / 3.0 * pi * r.powi(3);
+        let cube = SharedShape::round_cuboid(0.2, 0.2, 0.2, 0.1);
+        let plain = SharedShape::cuboid(0.5, 0.5, 0.5);
+        let far = Pose::from_translation(Vector::X * 3.0);
+        let pair = vec![(Pose::IDENTITY, cube.clone()), (far, plain)];
+        let of = |collider: ColliderBuilder| {
+            let (mut bodies, mut colliders) = (RigidBodySet::new(), ColliderSet::new());
+            let handle = bodies.insert(RigidBodyBuilder::dynamic());
+            colliders.insert_with_parent(collider, handle, &mut bodies);
+            CoreMass::of_body(&bodies, &colliders, handle).unwrap()
+        };
+        let builder = || ColliderBuilder::new(cube.clone());
+        let by_density = |collider: ColliderBuilder, rapier: f64, whole: f64| {
+            let found = of(collider).unwrap();
+            assert_relative_eq!(found.rapier, rapier, max_relative = 1e-6);
+            assert_relative_eq!(found.whole, whole, max_relative = 1e-6);
+            assert_relative_eq!(found.missing(), 1.0 - rapier / whole, max_relative = 1e-6);
+        };
+        by_density(builder().density(2000.0), 2000.0 * core, 2000.0 * whole);
+        let pair = ColliderBuilder::compound(pair).density(2.0);
+        by_density(pair, 2.0 * (core + 1.0), 2.0 * (whole + 1.0));
+        let right = DryMass::of_shape(cube.as_ref(), 2000.0).unwrap();
+        assert_relative_eq!(right.mass, 2000.0 * whole, max_relative = 1e-6);
+        assert_eq!(of(builder().density(0.0)), None);
+        assert_eq!(of(builder().mass(7.0)), None);
+        // As much as one density or another would give.
+        assert_eq!(of(builder().mass(core as f32)), None);
+        assert_eq!(
+            of(builder().mass_properties(right.to_mass_properties())),
+            None
+        );
+        assert_eq!(
+            of(ColliderBuilder::cuboid(1.0, 1.0, 1.0).density(3.0)),
+            None
+        );
+    }
+
+    /// A rounded triangle has no mass by density in rapier, but may be given one: it is spread over the plate.
+    /// Far from its edges that has the inertia of the sheet, m/18 (a² + b²) about the normal of the legs a, b
+    /// (m/36 (a² + b² + c²) with c² = a² + b²).
+    #[test]
+    fn rounded_triangles_may_be_given_a_mass() {
+        let (mut bodies, mut colliders) = (RigidBodySet::new(), ColliderSet::new());
+        let handle = bodies.insert(RigidBodyBuilder::dynamic());
+        let triangle = SharedShape::round_triangle(Vector::ZERO, Vector::X, Vector::Y * 2.0, 1e-4);
+        let collider = ColliderBuilder::new(triangle).mass(3.0);
+        colliders.insert_with_parent(collider, handle, &mut bodies);
+        let dry = DryMass::of_body(&bodies, &colliders, handle).unwrap();
+        assert_relative_eq!(dry.mass, 3.0);
+        assert_relative_eq!(dry.inertia[(2, 2)], 3.0 / 18.0 * 5.0, max_relative = 2e-3);
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::geometry::Surface;
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::ViscousLaw;
 use rapier3d::na::{Matrix3, Vector3};
+use rapier3d::parry::shape::Shape;
 use std::sync::Arc;
 
 /// What decides the fluid's force on a body: its shape as the fluid feels it, and the viscous law.
@@ -96,6 +97,33 @@ impl DryMass {
         };
         uniform.check()?;
         Ok(uniform)
+    }
+
+    /// The mass properties of a solid of a density (kg/m³) that fills a shape, in the shape's frame, with the
+    /// border of a rounded one.
+    ///
+    /// Rapier's own mass of a rounded shape is that of its core: a cone of 2000 kg/m³ with a thick border
+    /// floats. This one line gives it the right one:
+    ///
+    /// ```
+    /// use rapier3d_immersed::DryMass;
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    ///
+    /// let cone = SharedShape::round_cone(0.1, 0.05, 0.05);
+    /// let core = ColliderBuilder::new(cone.clone()).density(2000.0).build().mass();
+    /// let mass = DryMass::of_shape(cone.as_ref(), 2000.0)?.to_mass_properties();
+    /// let whole = ColliderBuilder::new(cone).mass_properties(mass).build().mass();
+    /// assert!(whole > 4.0 * core);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Surface::from_shape`], and [`Error::InvalidParameter`] if the density is not positive and
+    /// finite.
+    pub fn of_shape(shape: &dyn Shape, density: f64) -> Result<Self, Error> {
+        Error::check_positive("density", density)?;
+        let surface = Surface::from_shape(shape)?;
+        Self::uniform(&surface, density * surface.volume_integrals().volume)
     }
 
     /// The mass of two bodies that move as one.

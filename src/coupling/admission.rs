@@ -7,6 +7,7 @@ use super::registry::{Registry, SWEEP};
 use super::saved_properties::SavedProperties;
 use super::shared_constants::ConstantsTable;
 use super::warning::{Warning, Warnings};
+use crate::body::from_rapier::CoreMass;
 use crate::error::Error;
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::math::{Real, Vector};
@@ -16,7 +17,7 @@ use rapier3d::math::{Real, Vector};
 const WAKE_SHARE: Real = 0.25;
 /// Relative error of rapier's inertia tensor from which on torques are converted, and the user warned.
 const CONVERTED_ERROR: f64 = 1e-3;
-/// Relative error of rapier's inertia tensor of the dry body that a user should know.
+/// Relative error of rapier's inertia tensor or mass of the dry body that a user should know.
 const REPORTED_ERROR: f64 = 0.01;
 
 /// Finds the constants of the bodies that are in the fluid and have none, as after a change of the fluid or
@@ -123,7 +124,10 @@ impl Admission<'_> {
         };
         // The error of rapier's own inertia is known only of a body that is read for the first time.
         let mut dry_error = None;
+        let mut core_mass = None;
         if state.saved.is_none() {
+            core_mass = CoreMass::of_body(sets.bodies, sets.colliders, handle)?
+                .filter(|mass| mass.missing() > REPORTED_ERROR);
             let (saved, error) = SavedProperties::of(handle, sets.bodies, sets.colliders)?;
             state.saved = Some(Box::new(saved));
             dry_error = Some(error).filter(|error| *error > REPORTED_ERROR);
@@ -159,6 +163,15 @@ impl Admission<'_> {
         state.flight.corrected_contacts = 0;
         state.flight.solver_mass = dry.mass as Real;
         state.flight.converts_torque = wet_error.is_some();
+        if let Some(mass) = core_mass
+            && !std::mem::replace(&mut state.warned.core_mass, true)
+        {
+            self.warnings.push(Warning::CoreMass {
+                body: handle,
+                rapier_mass: mass.rapier,
+                whole_mass: mass.whole,
+            });
+        }
         if let Some(relative_error) = wet_error.or(dry_error)
             && !std::mem::replace(&mut state.warned.inertia, true)
         {

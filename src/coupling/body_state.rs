@@ -48,6 +48,7 @@ fn none() -> u32 {
 pub(super) struct Warned {
     pub refused: bool,
     pub inertia: bool,
+    pub core_mass: bool,
     pub flow: bool,
 }
 

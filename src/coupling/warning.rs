@@ -34,6 +34,17 @@ pub enum Warning {
         /// Largest error of an entry over the largest entry.
         relative_error: f64,
     },
+    /// A rounded collider of the body has a density, and rapier's mass of it is that of the core, without the
+    /// border. The body keeps that mass, and floats by its whole volume: the numbers say whether it does so
+    /// wrongly. [`DryMass::of_shape`](crate::DryMass::of_shape) gives it the mass of the whole.
+    CoreMass {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Rapier's mass of the body's colliders, kg.
+        rapier_mass: f64,
+        /// Their mass with the borders at the same density, kg.
+        whole_mass: f64,
+    },
     /// The flow at the body was no number: the fluid around it stayed as it was.
     FlowNotFinite {
         /// The body.
@@ -48,6 +59,15 @@ impl std::fmt::Display for Warning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Refused { body, reason } => write!(f, "{body:?} is not immersed: {reason}"),
+            Self::CoreMass {
+                body,
+                rapier_mass,
+                whole_mass,
+            } => write!(
+                f,
+                "rapier gives {body:?} {rapier_mass:.4} kg, the mass of its rounded shape without the border; \
+                 at its density the whole has {whole_mass:.4} kg (see DryMass::of_shape)"
+            ),
             Self::FlowNotFinite { body } => {
                 write!(
                     f,

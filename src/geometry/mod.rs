@@ -1,6 +1,6 @@
 //! The geometry that the fluid feels: closed surfaces, open sheets and ellipsoids.
 //!
-//! [`Surface::from_shape`] makes a closed surface of any rapier shape, [`Surface::new`] of a mesh of your
+//! [`Surface::from_shape`] makes a closed surface of any rapier shape that encloses a volume, [`Surface::new`] of a mesh of your
 //! own; [`HydroProperties::from_surface`](crate::HydroProperties::from_surface) and
 //! [`DryMass::uniform`](crate::DryMass::uniform) take it from there. A [`Sheet`] is a mesh without thickness,
 //! for the boundary elements (feature `bake`); an [`Ellipsoid`] stands in for any shape.
@@ -11,10 +11,14 @@ mod ellipsoid;
 mod graded;
 mod panels;
 pub(crate) mod quality;
+mod revolution;
+mod rounded;
 mod sheet;
 mod surface;
 mod tessellate;
+mod voxels;
 
 pub use ellipsoid::Ellipsoid;
 pub use sheet::Sheet;
 pub use surface::{Surface, VolumeIntegrals};
+pub(crate) use tessellate::rounded_volume;

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use rapier3d::na::{Matrix3, Vector3};
 use std::collections::HashMap;
+use std::hash::Hash;
 
 /// A closed triangle mesh whose normals point out of the body, into the fluid. It is in f64, because
 /// everything the fluid feels of a shape is computed from it once.
@@ -67,17 +68,47 @@ impl Surface {
             triangles,
         };
         surface.check_closed()?;
-        let integrals = surface.volume_integrals();
-        let size = surface.size();
-        if integrals.volume.abs() <= 1e-12 * size.powi(3) {
-            return Err(Error::NoVolume { size });
-        }
-        if integrals.volume < 0.0 {
+        if surface.check_volume()? < 0.0 {
             for triangle in &mut surface.triangles {
                 triangle.swap(1, 2);
             }
         }
         Ok(surface)
+    }
+
+    /// A surface whose triangles share their vertices by construction: only those at exactly the same place
+    /// are merged, so that no part is too thin beside the whole. It faces outward.
+    ///
+    /// # Errors
+    /// Those of [`Surface::new`].
+    pub(super) fn assembled(
+        vertices: &[Vector3<f64>],
+        triangles: &[[u32; 3]],
+    ) -> Result<Self, Error> {
+        super::quality::check_indices(vertices, triangles)?;
+        // Adding 0.0 turns −0.0 into 0.0.
+        let place = |v: &Vector3<f64>| <[u64; 3]>::from(v.map(|x| (x + 0.0).to_bits()));
+        let (vertices, triangles) = merge(vertices, triangles, place);
+        if triangles.is_empty() {
+            return Err(Error::EmptyMesh);
+        }
+        let surface = Self {
+            vertices,
+            triangles,
+        };
+        surface.check_closed()?;
+        surface.check_volume()?;
+        Ok(surface)
+    }
+
+    /// The volume, which must be more than the rounding of a flat mesh's, or less where it is inside out.
+    fn check_volume(&self) -> Result<f64, Error> {
+        let (volume, size) = (self.volume_integrals().volume, self.size());
+        if volume.abs() > 1e-12 * size.powi(3) {
+            Ok(volume)
+        } else {
+            Err(Error::NoVolume { size })
+        }
     }
 
     /// The vertices, m.
@@ -192,22 +223,33 @@ impl Surface {
     }
 }
 
-/// Merges vertices at the same place and drops triangles without area.
+/// Merges vertices at the same place, within 10⁻⁷ of the largest coordinate, and drops triangles that this
+/// collapses.
 fn weld(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
     let scale = vertices.iter().map(|v| v.amax()).fold(0.0, f64::max);
     if scale == 0.0 {
         return (Vec::new(), Vec::new());
     }
     let grid = 1e7 / scale;
+    merge(vertices, triangles, |v| {
+        <[i64; 3]>::from(v.map(|x| (x * grid).round() as i64))
+    })
+}
+
+/// Merges vertices of the same `place`, and drops triangles that this collapses.
+fn merge<P: Eq + Hash>(
+    vertices: &[Vector3<f64>],
+    triangles: &[[u32; 3]],
+    place: impl Fn(&Vector3<f64>) -> P,
+) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
     let mut seen = HashMap::with_capacity(vertices.len());
-    let mut welded = Vec::with_capacity(vertices.len());
+    let mut merged = Vec::with_capacity(vertices.len());
     let index: Vec<u32> = vertices
         .iter()
         .map(|v| {
-            let key: [i64; 3] = v.map(|x| (x * grid).round() as i64).into();
-            *seen.entry(key).or_insert_with(|| {
-                welded.push(*v);
-                welded.len() as u32 - 1
+            *seen.entry(place(v)).or_insert_with(|| {
+                merged.push(*v);
+                merged.len() as u32 - 1
             })
         })
         .collect();
@@ -216,7 +258,7 @@ fn weld(vertices: &[Vector3<f64>], triangles: &[[u32; 3]]) -> (Vec<Vector3<f64>>
         .map(|t| t.map(|i| index[i as usize]))
         .filter(|[a, b, c]| a != b && b != c && c != a)
         .collect();
-    (welded, triangles)
+    (merged, triangles)
 }
 
 #[cfg(test)]

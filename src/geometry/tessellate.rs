@@ -1,29 +1,36 @@
 //! Closed surfaces from rapier's shapes.
 
 use super::Surface;
+use super::revolution::{RoundBody, arc, revolve};
+use super::rounded::Core;
+use super::voxels;
 use crate::error::Error;
-use rapier3d::math::{Pose, Vector};
-use rapier3d::na::Vector3;
-use rapier3d::parry::math::Vector3 as ParryVector3;
-use rapier3d::parry::shape::{Shape, TypedShape};
-use rapier3d::parry::transformation::try_convex_hull;
-use std::f64::consts::{PI, TAU};
-
-/// How many segments go around a round body, and along half a circle of its profile.
-const AROUND: usize = 64;
-const ALONG: usize = 48;
+use crate::math::to_f64;
+use rapier3d::math::{Pose, Real, Vector};
+use rapier3d::parry::shape::{
+    ConvexPolyhedron, RoundCone, RoundConvexPolyhedron, RoundCuboid, RoundCylinder, RoundTriangle,
+    Shape, TypedShape,
+};
+use std::f64::consts::PI;
 
 impl Surface {
-    /// The surface of any shape that a rapier collider can have, in the shape's own frame.
+    /// The surface of a shape of a rapier collider, in the shape's own frame.
+    ///
+    /// Every shape that encloses a volume has one, at any aspect and scale: ball, cuboid, capsule, cylinder,
+    /// cone, convex polyhedron, voxels; the rounded ones of cuboid, cylinder, cone, convex polyhedron and
+    /// triangle **with their border**; closed triangle meshes; and compounds of them. Half extents may be zero
+    /// where there is a border.
     ///
     /// Flat-faced shapes are exact. Round ones are inscribed polyhedra, blown up a little across
-    /// their axis so that their **volume is exact**; their other integrals are right to about
-    /// 10⁻³.
+    /// their axis (rounded edges: from their core) so that their **volume is exact**; their other integrals
+    /// are right to about 10⁻³.
     ///
     /// # Errors
     /// [`Error::ShapeWithoutVolume`] names the shapes that enclose nothing (half-space, height
-    /// field, polyline, segment, triangle, custom shapes); an open triangle mesh gives
-    /// [`Error::OpenMesh`] and a shape of zero or non-finite size the errors of [`Surface::new`].
+    /// field, polyline, segment, triangle), [`Error::UnknownShape`] a custom shape: make a
+    /// [`Surface::new`] of it. An open triangle mesh gives [`Error::OpenMesh`], a length that is negative, zero
+    /// or not finite [`Error::InvalidParameter`], and a shape of less than 10⁻¹² of the cube of its size (a
+    /// needle a million times as long as thick) [`Error::NoVolume`].
     ///
     /// ```
     /// use rapier3d_immersed::geometry::Surface;
@@ -37,62 +44,61 @@ impl Surface {
     pub fn from_shape(shape: &dyn Shape) -> Result<Self, Error> {
         let none = |shape| Err(Error::ShapeWithoutVolume { shape });
         match shape.as_typed_shape() {
-            TypedShape::Ball(s) => revolve(&arc(s.radius.into(), 0.0, PI), {
-                let r = f64::from(s.radius);
-                4.0 / 3.0 * PI * r.powi(3)
-            }),
-            TypedShape::Cuboid(s) => from_mesh(s.to_trimesh()),
+            TypedShape::Ball(s) => ball(length("radius", s.radius)?),
+            TypedShape::Cuboid(s) => {
+                for (name, value) in HALF_EXTENTS.iter().zip(s.half_extents.to_array()) {
+                    length(name, value)?;
+                }
+                from_polyhedron(s.to_trimesh())
+            }
             TypedShape::Capsule(s) => {
-                let (r, h) = (f64::from(s.radius), f64::from(s.half_height()));
+                let r = length("radius", s.radius)?;
+                let h = length_or_zero("half height", s.half_height())?;
                 let mut profile = arc(r, 0.0, PI / 2.0);
                 profile.iter_mut().for_each(|p| p.1 += h);
                 let lower = arc(r, PI / 2.0, PI);
                 profile.extend(lower.iter().map(|p| (p.0, p.1 - h)));
                 let volume = PI * r * r * (4.0 / 3.0 * r + 2.0 * h);
                 let along_y = revolve(&profile, volume)?;
+                if h == 0.0 {
+                    // A segment of no length has no direction, and its rotation is not a number.
+                    let center = to_f64(s.center());
+                    return Ok(along_y.map(|v| v + center));
+                }
                 let pose = Pose::from_parts(s.center(), s.rotation_wrt_y());
                 Ok(along_y.posed(&pose))
             }
             TypedShape::Cylinder(s) => {
-                let (r, h) = (f64::from(s.radius), f64::from(s.half_height));
+                let r = length("radius", s.radius)?;
+                let h = length("half_height", s.half_height)?;
                 revolve(
                     &[(0.0, h), (r, h), (r, -h), (0.0, -h)],
                     2.0 * PI * r * r * h,
                 )
             }
             TypedShape::Cone(s) => {
-                let (r, h) = (f64::from(s.radius), f64::from(s.half_height));
+                let r = length("radius", s.radius)?;
+                let h = length("half_height", s.half_height)?;
                 revolve(&[(0.0, h), (r, -h), (0.0, -h)], 2.0 / 3.0 * PI * r * r * h)
             }
-            TypedShape::ConvexPolyhedron(s) => from_mesh(s.to_trimesh()),
+            TypedShape::ConvexPolyhedron(s) => from_polyhedron(s.to_trimesh()),
             TypedShape::TriMesh(s) => from_mesh((s.vertices().to_vec(), s.indices().to_vec())),
-            TypedShape::Voxels(s) => from_mesh(s.to_trimesh()),
+            TypedShape::Voxels(s) => voxels::surface(s),
             TypedShape::Compound(s) => {
                 let parts: Vec<_> = s.shapes().iter().map(|(p, s)| (*p, s.as_ref())).collect();
                 Self::of_parts(&parts, Self::from_shape)
             }
-            TypedShape::RoundCuboid(s) => {
-                let (vertices, _) = s.inner_shape.to_trimesh();
-                rounded(&vertices, s.border_radius)
-            }
-            TypedShape::RoundCylinder(s) => {
-                let (vertices, _) = s.inner_shape.to_trimesh(AROUND as u32 / 2);
-                rounded(&vertices, s.border_radius)
-            }
-            TypedShape::RoundCone(s) => {
-                let (vertices, _) = s.inner_shape.to_trimesh(AROUND as u32 / 2);
-                rounded(&vertices, s.border_radius)
-            }
-            TypedShape::RoundConvexPolyhedron(s) => {
-                rounded(s.inner_shape.points(), s.border_radius)
-            }
-            TypedShape::RoundTriangle(s) => rounded(&s.inner_shape.vertices()[..], s.border_radius),
+            TypedShape::RoundCuboid(s) => Rounded::cuboid(s)?.surface(),
+            TypedShape::RoundCylinder(s) => Rounded::cylinder(s)?.surface(),
+            TypedShape::RoundCone(s) => Rounded::cone(s)?.surface(),
+            TypedShape::RoundConvexPolyhedron(s) => Rounded::polyhedron(s)?.surface(),
+            TypedShape::RoundTriangle(s) => Rounded::triangle(s)?.surface(),
             TypedShape::HalfSpace(_) => none("half-space"),
             TypedShape::HeightField(_) => none("height field"),
             TypedShape::Polyline(_) => none("polyline"),
             TypedShape::Segment(_) => none("segment"),
             TypedShape::Triangle(_) => none("triangle"),
-            TypedShape::Custom(_) => none("custom shape"),
+            TypedShape::Custom(_) => Err(Error::UnknownShape),
         }
     }
 
@@ -119,73 +125,142 @@ impl Surface {
     }
 }
 
+/// The volume of a shape with its rounded border, m³; `None` if it has no border.
+pub(crate) fn rounded_volume(shape: &dyn Shape) -> Result<Option<f64>, Error> {
+    let rounded = match shape.as_typed_shape() {
+        TypedShape::RoundCuboid(s) => Rounded::cuboid(s)?,
+        TypedShape::RoundCylinder(s) => Rounded::cylinder(s)?,
+        TypedShape::RoundCone(s) => Rounded::cone(s)?,
+        TypedShape::RoundConvexPolyhedron(s) => Rounded::polyhedron(s)?,
+        TypedShape::RoundTriangle(s) => Rounded::triangle(s)?,
+        _ => return Ok(None),
+    };
+    rounded.volume().map(Some)
+}
+
+/// A shape grown by a border on all sides.
+enum Rounded {
+    /// A ball: the core is a point.
+    Ball(f64),
+    /// A body of revolution.
+    Revolved(RoundBody),
+    /// A convex polyhedron, and its border in m.
+    Grown(Core, f64),
+}
+
+impl Rounded {
+    fn cuboid(s: &RoundCuboid) -> Result<Self, Error> {
+        let border = length_or_zero("border_radius", s.border_radius)?;
+        let mut half = to_f64(s.inner_shape.half_extents);
+        for (name, value) in HALF_EXTENTS.iter().zip(half.iter_mut()) {
+            *value = core_length(name, *value as Real, border)?;
+        }
+        Ok(Self::Grown(Core::cuboid(half), border))
+    }
+
+    fn cylinder(s: &RoundCylinder) -> Result<Self, Error> {
+        let border = length_or_zero("border_radius", s.border_radius)?;
+        let r = core_length("radius", s.inner_shape.radius, border)?;
+        let h = core_length("half_height", s.inner_shape.half_height, border)?;
+        Ok(Self::Revolved(RoundBody::cylinder(r, h, border)))
+    }
+
+    fn cone(s: &RoundCone) -> Result<Self, Error> {
+        let border = length_or_zero("border_radius", s.border_radius)?;
+        let r = core_length("radius", s.inner_shape.radius, border)?;
+        let h = core_length("half_height", s.inner_shape.half_height, border)?;
+        if r == 0.0 && h == 0.0 {
+            return Ok(Self::Ball(border));
+        }
+        Ok(Self::Revolved(RoundBody::cone(r, h, border)))
+    }
+
+    fn triangle(s: &RoundTriangle) -> Result<Self, Error> {
+        // A triangle has a volume by its border alone.
+        let border = length("border_radius", s.border_radius)?;
+        let points = s.inner_shape.vertices().map(to_f64);
+        super::quality::check_indices(&points, &[[0, 1, 2]])?;
+        let [a, b, c] = points;
+        if a == b && b == c {
+            return Ok(Self::Ball(border));
+        }
+        Ok(Self::Grown(Core::triangle(points), border))
+    }
+
+    fn polyhedron(s: &RoundConvexPolyhedron) -> Result<Self, Error> {
+        let border = length_or_zero("border_radius", s.border_radius)?;
+        Ok(Self::Grown(polyhedron(&s.inner_shape)?, border))
+    }
+
+    fn volume(&self) -> Result<f64, Error> {
+        match self {
+            Self::Ball(r) => Ok(4.0 / 3.0 * PI * r.powi(3)),
+            Self::Revolved(body) => Ok(body.volume),
+            Self::Grown(core, border) => core.grown_volume(*border),
+        }
+    }
+
+    fn surface(&self) -> Result<Surface, Error> {
+        match self {
+            Self::Ball(r) => ball(*r),
+            Self::Revolved(body) => body.surface(),
+            Self::Grown(core, border) => core.grown(*border),
+        }
+    }
+}
+
+const HALF_EXTENTS: [&str; 3] = ["half_extents.x", "half_extents.y", "half_extents.z"];
+
+fn length(name: &'static str, value: Real) -> Result<f64, Error> {
+    Error::check_positive(name, value.into())
+}
+
+fn length_or_zero(name: &'static str, value: Real) -> Result<f64, Error> {
+    Error::check_not_negative(name, value.into())
+}
+
+/// A length of a core, which may be zero if it has a border.
+fn core_length(name: &'static str, value: Real, border: f64) -> Result<f64, Error> {
+    if border > 0.0 {
+        length_or_zero(name, value)
+    } else {
+        length(name, value)
+    }
+}
+
+fn polyhedron(s: &ConvexPolyhedron) -> Result<Core, Error> {
+    let points: Vec<_> = s.points().iter().map(|p| to_f64(*p)).collect();
+    let corners = s.vertices_adj_to_face();
+    super::quality::check_indices(&points, &[[0; 3]])?;
+    let faces = s.faces().iter().map(|face| {
+        let first = face.first_vertex_or_edge as usize;
+        corners[first..first + face.num_vertices_or_edges as usize].to_vec()
+    });
+    let normals: Vec<_> = s.faces().iter().map(|face| to_f64(face.normal)).collect();
+    Ok(Core::polyhedron(points, faces.collect(), &normals))
+}
+
+fn ball(radius: f64) -> Result<Surface, Error> {
+    revolve(&arc(radius, 0.0, PI), 4.0 / 3.0 * PI * radius.powi(3))
+}
+
 fn from_mesh((vertices, triangles): (Vec<Vector>, Vec<[u32; 3]>)) -> Result<Surface, Error> {
-    let vertices: Vec<_> = vertices.iter().map(|v| crate::math::to_f64(*v)).collect();
+    let vertices: Vec<_> = vertices.iter().map(|v| to_f64(*v)).collect();
     Surface::new(&vertices, &triangles)
 }
 
-/// Points (distance from the axis, height) of a circular arc between two polar angles.
-fn arc(radius: f64, from: f64, to: f64) -> Vec<(f64, f64)> {
-    let segments = (ALONG as f64 * (to - from) / PI).ceil() as usize;
-    (0..=segments)
-        .map(|i| {
-            let angle = from + (to - from) * i as f64 / segments as f64;
-            // The poles lie exactly on the axis, so that they weld to one vertex.
-            let at_pole = i == 0 && from == 0.0 || i == segments && to == PI;
-            let distance = if at_pole { 0.0 } else { radius * angle.sin() };
-            (distance, radius * angle.cos())
-        })
-        .collect()
-}
-
-/// The body of revolution about y of a profile from its top to its bottom, with distances from the
-/// axis scaled so that the volume is exactly `volume`.
-fn revolve(profile: &[(f64, f64)], volume: f64) -> Result<Surface, Error> {
-    let build = |scale: f64| {
-        let mut vertices = Vec::with_capacity(profile.len() * AROUND);
-        for (distance, height) in profile {
-            vertices.extend((0..AROUND).map(|i| {
-                let (sin, cos) = (TAU * i as f64 / AROUND as f64).sin_cos();
-                Vector3::new(scale * distance * sin, *height, scale * distance * cos)
-            }));
-        }
-        let mut triangles = Vec::with_capacity(profile.len() * AROUND * 2);
-        for ring in 0..profile.len() - 1 {
-            for i in 0..AROUND {
-                let next = (i + 1) % AROUND;
-                let [a, b] = [i, next].map(|i| (ring * AROUND + i) as u32);
-                let [c, d] = [i, next].map(|i| ((ring + 1) * AROUND + i) as u32);
-                triangles.push([a, c, d]);
-                triangles.push([a, d, b]);
-            }
-        }
-        Surface::new(&vertices, &triangles)
-    };
-    let inscribed = build(1.0)?.volume_integrals().volume;
-    build((volume / inscribed).sqrt())
-}
-
-/// The convex hull of some points, swept by a ball of radius `border`.
-fn rounded(points: &[Vector], border: f32) -> Result<Surface, Error> {
-    let border = f64::from(border);
-    let ball = revolve(&arc(border, 0.0, PI), 4.0 / 3.0 * PI * border.powi(3))?;
-    // Every fourth ring and segment of the ball is plenty around an edge.
-    let offsets: Vec<_> = ball.vertices().iter().step_by(3).collect();
-    let swept: Vec<ParryVector3> = points
-        .iter()
-        .flat_map(|p| {
-            let p = crate::math::to_f64(*p);
-            offsets.iter().map(move |o| crate::math::to_real(p + *o))
-        })
-        .collect();
-    let hull = try_convex_hull(&swept).map_err(|_| Error::EmptyMesh)?;
-    from_mesh(hull)
+/// A mesh that rapier has put together, whose triangles share their vertices.
+fn from_polyhedron((vertices, triangles): (Vec<Vector>, Vec<[u32; 3]>)) -> Result<Surface, Error> {
+    let vertices: Vec<_> = vertices.iter().map(|v| to_f64(*v)).collect();
+    Surface::assembled(&vertices, &triangles)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+    use rapier3d::na::Vector3;
+    use rapier3d::parry::math::IVector;
     use rapier3d::parry::shape::SharedShape;
 
     fn volume(shape: &SharedShape) -> f64 {
@@ -234,24 +309,28 @@ mod tests {
         assert!(integrals.second_moment[(0, 0)] > 3.0 * integrals.second_moment[(1, 1)]);
     }
 
-    /// Steiner's formula for a convex body grown by r: V + S r + M r² + 4/3 π r³ with M = π/… the
-    /// edges' share, for a box π(a+b+c). The faceted ball is what is missing: below 2 %.
+    /// A border of no width changes nothing, and one around a point is a ball, whatever the core.
     #[test]
-    fn rounded_box_grows_by_its_border() {
-        let (a, b, c, r) = (0.4, 0.6, 0.2, 0.05);
-        let half = |x: f64| (x / 2.0) as f32;
-        let shape = SharedShape::round_cuboid(half(a), half(b), half(c), r as f32);
-        let steiner = a * b * c
-            + 2.0 * (a * b + b * c + c * a) * r
-            + PI * (a + b + c) * r * r
-            + 4.0 / 3.0 * PI * r.powi(3);
-        assert_relative_eq!(volume(&shape), steiner, max_relative = 0.02);
-        for shape in [
-            SharedShape::round_cylinder(0.1, 0.2, 0.02),
-            SharedShape::round_cone(0.1, 0.2, 0.02),
-            SharedShape::round_triangle(Vector::ZERO, Vector::X, Vector::Y, 0.02),
+    fn borders_of_nothing_and_around_nothing() {
+        let volume_of = |shape: SharedShape| volume(&shape);
+        let ball = 4.0 / 3.0 * PI * 0.027;
+        let hull: Vec<_> = (0..8)
+            .map(|i| Vector::new(i as f32 % 2.0, (i / 2) as f32 % 2.0, (i / 4) as f32))
+            .collect();
+        for (shape, exact) in [
+            (SharedShape::round_cuboid(0.1, 0.2, 0.3, 0.0), 0.048),
+            (SharedShape::round_cylinder(0.01, 0.4, 0.0), PI * 0.0032),
+            (SharedShape::round_cone(0.5, 0.2, 0.0), PI * 0.04 / 3.0),
+            (SharedShape::round_convex_hull(&hull, 0.0).unwrap(), 1.0),
+            (SharedShape::round_cuboid(0.0, 0.0, 0.0, 0.3), ball),
+            (SharedShape::round_cylinder(0.0, 0.0, 0.3), ball),
+            (SharedShape::round_cone(0.0, 0.0, 0.3), ball),
+            (
+                SharedShape::round_triangle(Vector::X, Vector::X, Vector::X, 0.3),
+                ball,
+            ),
         ] {
-            assert!(volume(&shape) > 0.0);
+            assert_relative_eq!(volume_of(shape), exact, max_relative = 3e-7);
         }
     }
 
@@ -267,11 +346,27 @@ mod tests {
         assert_relative_eq!(i.centroid, Vector3::x(), epsilon = 1e-6);
     }
 
+    /// A block with a hole through it and two cells that touch along an edge, ten thousand cells from the
+    /// origin, where the centers of cells are rounded in single precision: the count of cells is the volume.
     #[test]
     fn voxels_are_closed() {
-        let voxels =
-            SharedShape::voxels_from_points(Vector::splat(0.1), &[Vector::ZERO, Vector::X]);
-        assert_relative_eq!(volume(&voxels), 2e-3, max_relative = 1e-4);
+        let cell = |x: i32, y: i32, z: i32| IVector::new(10_000 + x, y - 7_001, z);
+        let mut cells = vec![cell(3, 3, 0), cell(9, 9, 9)];
+        for (x, y, z) in (0..27).map(|i| (i % 3, i / 3 % 3, i / 9)) {
+            if (x, y) != (1, 1) {
+                cells.push(cell(x, y, z));
+            }
+        }
+        let size = [0.1, 0.07, 0.3];
+        let shape = SharedShape::voxels(size.into(), &cells);
+        let surface = Surface::from_shape(shape.as_ref()).unwrap();
+        let found = surface.volume_integrals();
+        let size = size.map(f64::from);
+        let one: f64 = size.iter().product();
+        assert_relative_eq!(found.volume, 26.0 * one, max_relative = 1e-9);
+        // The ring is 24 cells around (10001.5, −6999.5, 1.5).
+        let x = (24.0 * 10_001.5 + 10_003.5 + 10_009.5) / 26.0 * size[0];
+        assert_relative_eq!(found.centroid.x, x, max_relative = 1e-9);
     }
 
     #[test]
@@ -285,7 +380,48 @@ mod tests {
         );
         let triangle = SharedShape::triangle(Vector::ZERO, Vector::X, Vector::Y);
         assert!(Surface::from_shape(triangle.as_ref()).is_err());
-        assert!(Surface::from_shape(SharedShape::ball(0.0).as_ref()).is_err());
-        assert!(Surface::from_shape(SharedShape::ball(f32::NAN).as_ref()).is_err());
+    }
+
+    /// A length that cannot be is named, with its value.
+    #[test]
+    fn lengths_that_cannot_be_are_named() {
+        let (nan, infinite) = (f32::NAN, f32::INFINITY);
+        for (shape, text) in [
+            (
+                SharedShape::ball(0.0),
+                "radius must be positive and finite, but is 0",
+            ),
+            (SharedShape::ball(nan), "radius"),
+            (SharedShape::cuboid(1.0, -2.0, 1.0), "half_extents.y"),
+            (SharedShape::capsule_x(1.0, 0.0), "radius"),
+            (SharedShape::capsule_x(nan, 1.0), "half height"),
+            (SharedShape::cylinder(0.0, 1.0), "half_height"),
+            (SharedShape::cone(1.0, infinite), "radius"),
+            (
+                SharedShape::round_cuboid(1.0, 1.0, nan, 0.1),
+                "half_extents.z",
+            ),
+            (
+                SharedShape::round_cuboid(1.0, 1.0, 0.0, 0.0),
+                "half_extents.z",
+            ),
+            (SharedShape::round_cylinder(1.0, 1.0, -0.5), "border_radius"),
+            (SharedShape::round_cone(-1.0, 1.0, 0.5), "half_height"),
+            (
+                SharedShape::round_triangle(Vector::X, Vector::Y, Vector::ZERO, 0.0),
+                "border_radius",
+            ),
+            (
+                SharedShape::round_triangle(Vector::X, Vector::Y, Vector::splat(nan), 0.1),
+                "vertex 2 of the mesh is not finite",
+            ),
+            (
+                SharedShape::voxels(Vector::new(0.1, 0.0, 0.1), &[IVector::ZERO]),
+                "voxel_size.y",
+            ),
+        ] {
+            let error = Surface::from_shape(shape.as_ref()).unwrap_err().to_string();
+            assert!(error.starts_with(text), "{error}");
+        }
     }
 }

@@ -137,16 +137,19 @@ fn principal_axes(surface: &Surface, second_moment: &Matrix3<f64>) -> Rotation3<
     order.sort_by(|i, j| eigen.eigenvalues[*j].total_cmp(&eigen.eigenvalues[*i]));
     let axis = |i: usize| eigen.eigenvectors.column(order[i]).into_owned();
     // A cube's or a square plate's axes are arbitrary to the solver; the frame's own are as good
-    // and do not depend on rounding.
-    let tolerance = 1e-5 * second_moment.norm();
-    let off_diagonal = second_moment - Matrix3::from_diagonal(&second_moment.diagonal());
-    let (x, z) = if off_diagonal.norm() <= tolerance {
+    // and do not depend on rounding. Each pair is judged by itself: a strip's width and thickness may be
+    // nothing beside its length.
+    let spread = second_moment.diagonal();
+    let within = |i: usize, j: usize, x: f64| x.abs() <= 1e-5 * spread[i].max(spread[j]);
+    let aligned = [(0, 1), (1, 2), (2, 0)]
+        .iter()
+        .all(|(i, j)| within(*i, *j, second_moment[(*i, *j)]));
+    let (x, z) = if aligned {
         let mut order = [0, 1, 2];
-        let spread = second_moment.diagonal();
         // The order descends; ties (within rounding) stay in the order of the frame.
         order.sort_by(|i, j| {
             let difference = spread[*j] - spread[*i];
-            if difference.abs() <= tolerance {
+            if within(*i, *j, difference) {
                 std::cmp::Ordering::Equal
             } else {
                 difference.total_cmp(&0.0)

@@ -17,7 +17,7 @@ fn fall(
     law: ViscousLaw,
     options: &FallOptions,
 ) -> Fall {
-    let specimen = Specimen::new(shape, Some(&Lengths(size.to_vec())), None, 1e-3).unwrap();
+    let specimen = Specimen::new(shape, Some(&Lengths(size.to_vec())), None, None, 1e-3).unwrap();
     let body = ImmersedBody::new(specimen.hydro.clone())
         .with_law(law)
         .unwrap();

@@ -1,7 +1,7 @@
 //! A user's mesh is read as it is, or refused with a line that names the file.
 
 use crate::support::Vec3;
-use crate::support::mesh::{RawMesh, aligned, load};
+use crate::support::mesh::{RawMesh, aligned, load, load_scaled};
 use rand::{RngExt, SeedableRng};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -81,6 +81,139 @@ fn all_formats_give_the_same_solid() {
     }
 }
 
+/// What programs write that is not in the book: byte-order marks, comments in Latin-1, lines that end as on
+/// Windows, negative indices, faces of many corners, vertices that are there twice, corners on a line that
+/// close a gap between faces of different divisions, and a mesh that is inside out.
+#[test]
+fn obj_files_as_they_are_found() {
+    let windows = CUBE_OBJ.replace('\n', "\r\n");
+    let mut latin = b"# Gro\xdfe W\xfcrfel \xb5m\no W\xfcrfel\n".to_vec();
+    latin.extend(CUBE_OBJ.as_bytes());
+    let mut marked = b"\xef\xbb\xbf".to_vec();
+    marked.extend(CUBE_OBJ.replacen("o cube\n", "", 1).as_bytes());
+    let negative: String = CUBE_OBJ
+        .lines()
+        .map(|line| match line.strip_prefix("f ") {
+            Some(face) => {
+                let corners = face.split(' ').map(|i| i.parse::<i32>().unwrap() - 9);
+                let corners: Vec<String> = corners.map(|i| i.to_string()).collect();
+                format!("f {}\n", corners.join(" "))
+            }
+            None => format!("{line}\n"),
+        })
+        .collect();
+    let mut twice = String::new();
+    for (count, face) in CUBE_OBJ
+        .lines()
+        .filter_map(|l| l.strip_prefix("f "))
+        .enumerate()
+    {
+        let vertex = |i: &str| CUBE_OBJ.lines().nth(i.parse::<usize>().unwrap()).unwrap();
+        face.split(' ')
+            .for_each(|i| twice += &format!("{}\n", vertex(i)));
+        let first = 4 * count;
+        twice += &format!(
+            "f {} {} {} {}\n",
+            first + 1,
+            first + 2,
+            first + 3,
+            first + 4
+        );
+    }
+    // Vertex 9 halves the edge from 1 to 2 of the bottom, whose other face knows nothing of it.
+    let collinear = CUBE_OBJ.replacen("f 4 3 2 1", "v 1 0 0\nf 4 3 2 9 1\nf 1 9 2", 1);
+    let reversed: String = CUBE_OBJ
+        .lines()
+        .map(|line| match line.strip_prefix("f ") {
+            Some(face) => {
+                let corners: Vec<&str> = face.split(' ').rev().collect();
+                format!("f {}\n", corners.join(" "))
+            }
+            None => format!("{line}\n"),
+        })
+        .collect();
+    for (name, content) in [
+        ("windows.obj", windows.into_bytes()),
+        ("latin.obj", latin),
+        ("marked.obj", marked),
+        ("negative.obj", negative.into_bytes()),
+        ("twice.obj", twice.into_bytes()),
+        ("collinear.obj", collinear.into_bytes()),
+        ("reversed.obj", reversed.into_bytes()),
+    ] {
+        let mesh = load(&file(name, &content)).unwrap_or_else(|problem| panic!("{problem}"));
+        let solid = mesh
+            .solid(1e-3)
+            .unwrap_or_else(|problem| panic!("{name}: {problem}"));
+        let volume = solid.volume_integrals().volume;
+        assert!((volume - 8.0).abs() < 1e-12, "{name}: {volume}");
+    }
+    // A prism over a hexagon of side 1: 3√3/2.
+    let mut prism = String::new();
+    for z in [0.0, 1.0] {
+        for i in 0..6 {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / 6.0).sin_cos();
+            prism += &format!("v {cos} {sin} {z}\n");
+        }
+    }
+    prism += "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n";
+    for i in 1..=6 {
+        let next = i % 6 + 1;
+        prism += &format!("f {i} {next} {} {}\n", next + 6, i + 6);
+    }
+    let solid = load(&file("prism.obj", prism.as_bytes()))
+        .unwrap()
+        .solid(1e-3)
+        .unwrap();
+    let volume = solid.volume_integrals().volume;
+    assert!(
+        (volume / (1.5 * 3f64.sqrt()) - 1.0).abs() < 1e-6,
+        "{volume}"
+    );
+}
+
+/// A leaf of 80 × 50 mm in millimetres is not dropped as a plate of 80 × 50 m: the message names the size and
+/// what to say.
+#[test]
+fn millimetres_are_not_taken_for_metres() {
+    let text = "v 0 0 0\nv 80 0 0\nv 80 50 0\nv 0 50 0\nf 1 2 3 4\n";
+    let path = file("leaf_in_mm.obj", text.as_bytes());
+    let problem = load_scaled(&path, None).unwrap_err();
+    for part in [
+        "leaf_in_mm.obj: 80 × 50 × 0 m",
+        "--scale 0.001",
+        "--scale 1",
+    ] {
+        assert!(problem.contains(part), "{problem}");
+    }
+    let leaf = load_scaled(&path, Some(1e-3)).unwrap();
+    assert!((leaf.extents() - Vec3::new(0.08, 0.05, 0.0)).norm() < 1e-9);
+    let field = load_scaled(&path, Some(1.0)).unwrap();
+    assert_eq!(field.extents().x, 80.0);
+    let small = file(
+        "leaf_in_m.obj",
+        text.replace("80", ".08").replace("50", ".05").as_bytes(),
+    );
+    assert!((load_scaled(&small, None).unwrap().extents().x - 0.08).abs() < 1e-8);
+}
+
+/// A cube of which one face is wound the other way says so, and where.
+#[test]
+fn faces_wound_both_ways_are_named() {
+    let text = CUBE_OBJ.replacen("f 5 6 7 8", "f 8 7 6 5", 1);
+    let problem = load(&file("wound.obj", text.as_bytes()))
+        .unwrap()
+        .solid(1e-3)
+        .unwrap_err();
+    for part in [
+        "not closed: 4 edges",
+        "face opposite ways",
+        "[2.0, 2.0, 2.0]",
+    ] {
+        assert!(problem.contains(part), "{problem}");
+    }
+}
+
 #[test]
 fn an_open_sheet_gets_a_thickness() {
     // Two quads in the plane z = 0, wound alike.
@@ -96,7 +229,12 @@ fn a_box_with_a_hole_is_neither_solid_nor_sheet() {
     let mut open = cube();
     open.triangles.pop();
     let problem = open.solid(1e-3).unwrap_err();
-    assert!(problem.contains("neither a solid nor a sheet"), "{problem}");
+    for part in [
+        "neither a solid (the mesh is not closed: 3 edges",
+        "nor a sheet",
+    ] {
+        assert!(problem.contains(part), "{problem}");
+    }
 }
 
 #[test]
@@ -122,7 +260,8 @@ fn bad_files_are_refused_by_name() {
     long.truncate(300);
     let mut lying = binary_stl(&cube(), b"");
     lying[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
-    let cases: [(&str, Vec<u8>, &str); 9] = [
+    let cases: [(&str, Vec<u8>, &str); 10] = [
+        ("wide.obj", b"\xff\xfev\x000\x00".to_vec(), "UTF-16"),
         ("empty.obj", Vec::new(), "no triangles"),
         ("points.obj", b"v 0 0 0\nv 1 0 0\n".to_vec(), "no triangles"),
         ("index.obj", b"v 0 0 0\nv 1 0 0\nf 1 2 9\n".to_vec(), "OBJ"),

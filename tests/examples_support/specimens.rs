@@ -9,7 +9,7 @@ use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::geometry::SharedShape;
 
 fn specimen(shape: ShapeName, size: &[f64]) -> Specimen {
-    Specimen::new(shape, Some(&Lengths(size.to_vec())), None, 1e-3).unwrap()
+    Specimen::new(shape, Some(&Lengths(size.to_vec())), None, None, 1e-3).unwrap()
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn a_plate_is_the_same_in_any_order_and_lies_flat() {
 fn wrong_sizes_name_the_flag() {
     let new = |shape, size: Option<&[f64]>, file: Option<&str>| {
         let size = size.map(|s| Lengths(s.to_vec()));
-        Specimen::new(shape, size.as_ref(), file.map(AsRef::as_ref), 1e-3).unwrap_err()
+        Specimen::new(shape, size.as_ref(), file.map(AsRef::as_ref), None, 1e-3).unwrap_err()
     };
     assert_eq!(new(ShapeName::Disc, Some(&[0.1]), None).0, "--size");
     assert_eq!(new(ShapeName::Disc, None, None).0, "--size");
@@ -95,6 +95,14 @@ fn wrong_sizes_name_the_flag() {
         "--size"
     );
     assert_eq!(new(ShapeName::Mesh, None, None).0, "--mesh");
+    let scaled = Specimen::new(
+        ShapeName::Sphere,
+        Some(&Lengths(vec![0.1])),
+        None,
+        Some(2.0),
+        1e-3,
+    );
+    assert_eq!(scaled.unwrap_err().0, "--scale");
     assert_eq!(new(ShapeName::Mesh, None, Some("no.obj")).0, "--mesh");
     assert_eq!(
         new(ShapeName::Disc, Some(&[0.1, 0.01]), Some("no.obj")).0,
