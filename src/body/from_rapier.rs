@@ -11,6 +11,7 @@ use rapier3d::dynamics::{
 use rapier3d::geometry::{Collider, ColliderSet};
 use rapier3d::math::{Pose, Vector};
 use rapier3d::na::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use rapier3d::parry::shape::Shape;
 
 impl HydroProperties {
     /// Properties of all of a body's enabled, solid (not sensor) colliders together, in the body's
@@ -48,9 +49,20 @@ impl HydroProperties {
         if parts.is_empty() {
             return Err(Error::NoCollider);
         }
-        let surface = Surface::of_parts(&parts, Surface::from_shape)?;
         let center = DryMass::of_body(bodies, colliders, handle)?.center;
-        Self::from_surface(&surface, center).with_accuracy(&parts, accuracy)
+        Self::of_parts(&parts, center)?.with_accuracy(&parts, accuracy)
+    }
+
+    /// Properties of shapes at their poses in a body's frame, referred to `center`.
+    pub(crate) fn of_parts(
+        parts: &[(Pose, &dyn Shape)],
+        center: Vector3<f64>,
+    ) -> Result<Self, Error> {
+        if parts.is_empty() {
+            return Err(Error::NoCollider);
+        }
+        let surface = Surface::of_parts(parts, Surface::from_shape)?;
+        Ok(Self::from_surface(&surface, center))
     }
 }
 

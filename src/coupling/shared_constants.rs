@@ -178,11 +178,7 @@ impl SharedConstants {
         let constants = BodyConstants::new(body, dry, fluid)?;
         let (mass, length) = (constants.mass, constants.length);
         let arm = constants.axes.inverse() * constants.buoyancy_arm / length;
-        let mut whole = constants.added_mass.to_matrix6();
-        let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
-        linear += Matrix3::from_diagonal_element(dry.mass);
-        let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
-        angular += dry.inertia;
+        let whole = mass_matrix(&constants);
         let principal_mass = PrincipalMass::of(&whole.fixed_view::<3, 3>(0, 0).into_owned());
         let inverse_mass = whole.try_inverse().ok_or(Error::UnphysicalAddedMass)?;
         let coupling = constants.added_mass.coupling.norm();
@@ -245,6 +241,11 @@ impl SharedConstants {
         })
     }
 
+    /// The 6×6 mass of body and fluid about the center of mass, body axes.
+    pub fn mass_matrix(&self) -> Matrix6<f64> {
+        mass_matrix(&self.constants)
+    }
+
     /// What rapier is given: the scalar mass it can use, and I + ρA₂₂.
     pub fn wet(&self, mass: f64) -> DryMass {
         let dry = &self.constants.dry;
@@ -278,6 +279,15 @@ impl SharedConstants {
     fn is(&self, description: u32, body: &ImmersedBody, dry: &DryMass) -> bool {
         self.description == description && self.constants.dry == *dry && self.body == *body
     }
+}
+
+fn mass_matrix(constants: &BodyConstants) -> Matrix6<f64> {
+    let mut whole = constants.added_mass.to_matrix6();
+    let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
+    linear += Matrix3::from_diagonal_element(constants.dry.mass);
+    let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
+    angular += constants.dry.inertia;
+    whole
 }
 
 impl Content for SharedConstants {

@@ -25,21 +25,14 @@ pub(in crate::coupling) struct StepParts<'a> {
     pub workspace: &'a mut Workspace,
 }
 
-/// Sets each body's force, torque and velocity so that rapier's step moves it as the fluid would.
+/// Sets each body's force, torque and velocity so that rapier's step moves it as the fluid would. Bodies that
+/// their users have changed are left for [`move_newcomers`].
 pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierSets) {
-    let parameters = sets.integration_parameters;
-    // A negative or NaN time step moves nothing, in rapier as here.
-    if parameters.dt.is_nan() || parameters.dt <= 0.0 {
+    let Some(context) = context(parts.integrator, sets) else {
         return;
-    }
-    let context = StepContext {
-        dt: parameters.dt,
-        substeps: parameters.num_solver_iterations.max(1),
-        scheme: SubstepScheme::new(parameters.dt, parameters.num_solver_iterations),
-        gravity: sets.gravity,
-        integrator: parts.integrator,
     };
     parts.workspace.forget_bodies();
+    parts.workspace.begin_marks(parts.registry.states().len());
     let heavy_fluid = parts.constants.heavy_fluid;
     contact_mass::find_close(
         parts.registry,
@@ -69,6 +62,39 @@ pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierS
     parts.registry.newcomers = newcomers;
 }
 
+/// Moves bodies that have entered the fluid after [`before_step`] of the same step.
+pub(in crate::coupling) fn move_newcomers(parts: &mut StepParts, sets: &mut RapierSets) {
+    let Some(context) = context(parts.integrator, sets) else {
+        return;
+    };
+    for handle in std::mem::take(&mut parts.registry.newcomers) {
+        let index = parts.registry.index(handle);
+        if index.is_some_and(|index| !parts.workspace.moved.get(index).is_some_and(|moved| *moved))
+        {
+            move_body(handle, parts, sets, &context);
+        }
+    }
+    for route in Route::all() {
+        run_stages(route, parts, sets, &context);
+    }
+}
+
+/// How a step is taken; `None` if it moves nothing.
+fn context(integrator: Integrator, sets: &RapierSets) -> Option<StepContext> {
+    let parameters = sets.integration_parameters;
+    // A negative or NaN time step moves nothing, in rapier as here.
+    if parameters.dt.is_nan() || parameters.dt <= 0.0 {
+        return None;
+    }
+    Some(StepContext {
+        dt: parameters.dt,
+        substeps: parameters.num_solver_iterations.max(1),
+        scheme: SubstepScheme::new(parameters.dt, parameters.num_solver_iterations),
+        gravity: sets.gravity,
+        integrator,
+    })
+}
+
 /// Prepares a body, and moves its batch if that is full.
 fn move_body(
     handle: RigidBodyHandle,
@@ -83,6 +109,8 @@ fn move_body(
         close: &parts.workspace.close,
         context,
         registry: parts.registry,
+        moved: &mut parts.workspace.moved,
+        changed: &mut parts.workspace.changed,
         batches: &mut parts.workspace.batches,
     };
     if let Some(route) = prepare::prepare(handle, sets, &mut preparation)

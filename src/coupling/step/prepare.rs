@@ -25,10 +25,13 @@ pub(super) struct Preparation<'a> {
     pub close: &'a CloseBodies,
     pub context: &'a StepContext,
     pub registry: &'a mut Registry,
+    pub moved: &'a mut [bool],
+    pub changed: &'a mut Vec<u32>,
     pub batches: &'a mut [Batch; Route::COUNT],
 }
 
-/// Puts an awake body into the batch of its route, if it is immersed.
+/// Puts an awake body into the batch of its route, if it is immersed; one that its user has changed is set
+/// aside.
 pub(super) fn prepare(
     handle: RigidBodyHandle,
     sets: &RapierSets,
@@ -37,7 +40,13 @@ pub(super) fn prepare(
     let index = to.registry.index(handle)?;
     let state = to.registry.at_mut(index)?;
     let body = sets.bodies.get(handle)?;
-    if state.saved.is_none() || !body.is_dynamic() || body.is_sleeping() {
+    let enabling = std::mem::take(&mut state.enabling);
+    let saved = state.saved.as_deref()?;
+    if !body.is_dynamic() || body.is_sleeping() || !body.is_enabled() {
+        return None;
+    }
+    if !enabling && !saved.still_holds(body, sets.colliders) {
+        to.changed.push(index as u32);
         return None;
     }
     let shared = to.constants.get(state.constants)?;
@@ -109,6 +118,9 @@ pub(super) fn prepare(
     let undisturbed =
         continues && [change_linear, change_angular, force, torque] == [Vector::ZERO; 4];
 
+    if let Some(moved) = to.moved.get_mut(index) {
+        *moved = true;
+    }
     let batch = &mut to.batches[shared.route.index()];
     let disturbance = if undisturbed {
         NONE

@@ -295,11 +295,32 @@ pub(in crate::coupling) struct Workspace {
     pub held: Vec<HeldStart>,
     pub moved_by_mean: Vec<MeanMotion>,
     pub samples: Vec<FlowSample>,
+    /// Which bodies this step moves, and which the last one moved, by the index of their state.
+    pub moved: Vec<bool>,
+    pub moved_before: Vec<bool>,
+    /// Indices of the states of bodies that their users have changed, which are not moved yet.
+    pub changed: Vec<u32>,
     /// Bodies at which the flow was no number in this step.
     pub bad_flows: Vec<RigidBodyHandle>,
 }
 
 impl Workspace {
+    /// Makes room for marking which of so many bodies a step moves.
+    pub fn begin_marks(&mut self, bodies: usize) {
+        std::mem::swap(&mut self.moved, &mut self.moved_before);
+        self.moved.clear();
+        self.moved.resize(bodies, false);
+    }
+
+    /// Indices of the bodies that the last step moved and this one does not.
+    pub fn missed(&self) -> impl Iterator<Item = usize> {
+        let both = self.moved_before.iter().zip(&self.moved);
+        let missed = both
+            .enumerate()
+            .filter(|(_, (before, now))| **before && !**now);
+        missed.map(|(index, _)| index)
+    }
+
     /// Forgets what the bodies had before the step.
     pub fn forget_bodies(&mut self) {
         self.saved_forces.clear();

@@ -143,9 +143,12 @@ fn write_body(
             .is_some_and(|saved| saved.fast_rotation);
     if fast != body.is_fast_rotation_allowed() {
         body.set_allow_fast_rotation(fast);
+        if let Some(saved) = &mut state.saved {
+            saved.fast_written = fast;
+        }
     }
     if input.new_mass
-        && let Some(saved) = &state.saved
+        && let Some(saved) = &mut state.saved
     {
         let mass = input.solver_mass.into();
         saved.set_mass(shared, mass, input.handle, sets.bodies, sets.colliders);
