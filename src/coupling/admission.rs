@@ -73,6 +73,8 @@ pub(super) struct Admission<'a> {
     pub registry: &'a mut Registry,
     pub constants: &'a mut ConstantsTable,
     pub warnings: &'a mut Warnings,
+    /// The body that entered last, and the error of rapier's own inertia for it.
+    pub last: Option<(usize, f64)>,
 }
 
 impl Admission<'_> {
@@ -218,7 +220,12 @@ impl Admission<'_> {
             .is_some_and(|state| state.saved.is_none())
         {
             self.follow_shape(index, sets)?;
-            let (saved, error) = SavedProperties::of(handle, sets.bodies, sets.colliders)?;
+            let like = self.last.and_then(|(index, error)| {
+                let state = self.registry.states()[index].as_ref()?;
+                Some((state.saved.as_deref()?, error))
+            });
+            let (saved, error) = SavedProperties::of(handle, sets.bodies, sets.colliders, like)?;
+            self.last = Some((index, error));
             dry_error = Some(error).filter(|error| *error > REPORTED_ERROR);
             if let Some(state) = self.registry.at_mut(index) {
                 state.saved = Some(Box::new(saved));

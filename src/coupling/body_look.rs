@@ -3,7 +3,8 @@
 use super::saved_properties::SavedProperties;
 use rapier3d::dynamics::{MassProperties, RigidBody, RigidBodyAdditionalMassProps};
 use rapier3d::geometry::{Collider, ColliderHandle, ColliderSet, SharedShape};
-use rapier3d::math::{Pose, Real};
+use rapier3d::math::{Pose, Real, Vector};
+use rapier3d::parry::shape::{Shape, TypedShape};
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
@@ -66,6 +67,8 @@ pub(super) struct KeptCollider {
     pub pose: Pose,
     pub enabled: bool,
     pub sensor: bool,
+    /// Whether it carries the mass of the body while that is immersed.
+    pub carries: bool,
     /// The shape itself: as long as it is held here, whoever changes it gets a copy at another address.
     /// `None` after loading.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
@@ -83,6 +86,7 @@ impl KeptCollider {
             pose: pose_of(collider),
             enabled: collider.is_enabled(),
             sensor: collider.is_sensor(),
+            carries: false,
             shape: Some(collider.shared_shape().clone()),
             #[cfg(feature = "serde-serialize")]
             shape_mark: shape_mark(collider),
@@ -106,17 +110,24 @@ impl KeptCollider {
     /// Whether a collider is this one, of the same shape at the same place.
     #[inline(always)]
     fn is(&self, handle: ColliderHandle, collider: &Collider) -> bool {
-        let shape = collider.shared_shape();
+        let (Some(shape), Some(pose)) = (&self.shape, collider.position_wrt_parent()) else {
+            return false;
+        };
         self.handle == handle
-            && self
-                .shape
-                .as_ref()
-                .is_some_and(|kept| Arc::ptr_eq(&kept.0, &shape.0))
+            && Arc::ptr_eq(&shape.0, &collider.shared_shape().0)
             && self.enabled == collider.is_enabled()
             && self.sensor == collider.is_sensor()
-            && collider
-                .position_wrt_parent()
-                .is_some_and(|pose| *pose == self.pose)
+            && same(&pose.translation, &self.pose.translation)
+            && pose.rotation == self.pose.rotation
+    }
+
+    /// Whether another collider that is read in the same state gives its body the same mass.
+    pub fn weighs_as(&self, other: &Self) -> bool {
+        self.mass == other.mass
+            && self.enabled == other.enabled
+            && self.pose == other.pose
+            && (self.shape.as_ref().zip(other.shape.as_ref()))
+                .is_some_and(|(a, b)| Arc::ptr_eq(&a.0, &b.0) || are_equal(&**a, &**b))
     }
 
     /// The same after loading: the shape is held from now on if it is the one that was kept.
@@ -126,6 +137,29 @@ impl KeptCollider {
             self.shape = Some(collider.shared_shape().clone());
         }
         self.is(handle, collider)
+    }
+}
+
+/// Whether two vectors are the same to the bit: bits compare faster than numbers.
+#[inline(always)]
+pub(super) fn same(a: &Vector, b: &Vector) -> bool {
+    a.x.to_bits() == b.x.to_bits()
+        && a.y.to_bits() == b.y.to_bits()
+        && a.z.to_bits() == b.z.to_bits()
+}
+
+/// Whether two shapes are equal, as far as that can be told at a glance.
+fn are_equal(a: &dyn Shape, b: &dyn Shape) -> bool {
+    match (a.as_typed_shape(), b.as_typed_shape()) {
+        (TypedShape::Ball(a), TypedShape::Ball(b)) => a.radius == b.radius,
+        (TypedShape::Cuboid(a), TypedShape::Cuboid(b)) => a.half_extents == b.half_extents,
+        (TypedShape::Cylinder(a), TypedShape::Cylinder(b)) => {
+            (a.half_height, a.radius) == (b.half_height, b.radius)
+        }
+        (TypedShape::Cone(a), TypedShape::Cone(b)) => {
+            (a.half_height, a.radius) == (b.half_height, b.radius)
+        }
+        _ => false,
     }
 }
 
@@ -149,13 +183,18 @@ impl SavedProperties {
     #[inline(always)]
     pub fn still_holds(&self, body: &RigidBody, colliders: &ColliderSet) -> bool {
         let handles = body.colliders();
-        handles.len() == self.colliders.len()
-            && self.wrote_body(body)
-            && (self.colliders.iter().zip(handles).enumerate()).all(|(index, (kept, handle))| {
-                colliders.get(*handle).is_some_and(|collider| {
-                    kept.is(*handle, collider) && self.wrote(index, collider)
-                })
-            })
+        if handles.len() != self.colliders.len() || !self.wrote_body(body) {
+            return false;
+        }
+        for (kept, handle) in self.colliders.iter().zip(handles) {
+            let Some(collider) = colliders.get(*handle) else {
+                return false;
+            };
+            if !(kept.is(*handle, collider) && self.wrote(kept, collider)) {
+                return false;
+            }
+        }
+        true
     }
 
     /// What has changed of a body that may not be as it was left.

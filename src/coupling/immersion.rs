@@ -392,6 +392,7 @@ impl Immersion {
             registry: &mut self.registry,
             constants: &mut self.constants,
             warnings: &mut self.warnings,
+            last: None,
         }
     }
 

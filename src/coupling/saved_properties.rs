@@ -5,7 +5,7 @@
 //! user meant is kept here, with what was written, so that anything else that is found there is known to be
 //! the user's and is left alone or taken over.
 
-use super::body_look::{KeptCollider, MassSpec};
+use super::body_look::{KeptCollider, MassSpec, same};
 use super::shared_constants::SharedConstants;
 use crate::body::DryMass;
 use crate::body::from_rapier::inertia_error;
@@ -32,15 +32,12 @@ pub(super) struct SavedProperties {
     pub fast_rotation: bool,
     /// … and whether the crate does.
     pub fast_written: bool,
-    /// Index of the collider that carries the mass, `NONE` if the body has no enabled one: its additional
-    /// mass properties are the carrier then.
-    carrier: u32,
+    /// Whether a collider carries the mass; if the body has no enabled one, its additional mass properties
+    /// do.
+    carried: bool,
     /// What the carrier was given.
     written: MassProperties,
 }
-
-/// No collider.
-const NONE: u32 = u32::MAX;
 
 /// An additional mass that says that there is none: a number that nobody sets, too small to change any mass.
 const NO_MASS: Real = Real::from_bits(0x0000_a7f1);
@@ -54,6 +51,15 @@ const fn none_at(center: Vector) -> MassProperties {
         inv_principal_inertia: Vector::ZERO,
         principal_inertia_local_frame: rapier3d::math::Rotation::IDENTITY,
     }
+}
+
+/// Whether mass properties are the same to the bit. Each step asks this for each body.
+#[inline(always)]
+fn are_same(a: &MassProperties, b: &MassProperties) -> bool {
+    a.inv_mass.to_bits() == b.inv_mass.to_bits()
+        && same(&a.local_com, &b.local_com)
+        && same(&a.inv_principal_inertia, &b.inv_principal_inertia)
+        && a.principal_inertia_local_frame == b.principal_inertia_local_frame
 }
 
 /// Whether mass properties are those of [`none_at`].
@@ -127,7 +133,8 @@ fn check_properties(properties: &MassProperties) -> Result<(), Error> {
 
 impl SavedProperties {
     /// Reads a body that is as its user wants it. Also returns the relative error of rapier's own inertia
-    /// for it.
+    /// for it. `like` is what was read of another body, with its error: one that is made of the same gets
+    /// the same mass, without integrating over its shapes again.
     ///
     /// # Errors
     /// Those of [`DryMass::of_body`].
@@ -135,12 +142,27 @@ impl SavedProperties {
         handle: RigidBodyHandle,
         bodies: &mut RigidBodySet,
         colliders: &ColliderSet,
+        like: Option<(&Self, f64)>,
     ) -> Result<(Self, f64), Error> {
-        let dry = DryMass::of_body(bodies, colliders, handle)?;
+        let body = bodies.get(handle).ok_or(Error::NoBody)?;
+        let mut saved = Self::with_mass(DryMass::NONE, body, colliders);
+        if let Some((like, error)) = like
+            && saved.weighs_as(like)
+        {
+            saved.dry = like.dry;
+            return Ok((saved, error));
+        }
+        saved.dry = DryMass::of_body(bodies, colliders, handle)?;
         let body = bodies.get_mut(handle).ok_or(Error::NoBody)?;
         body.recompute_mass_properties_from_colliders(colliders);
-        let error = inertia_error(&body.mass_properties().local_mprops, &dry);
-        Ok((Self::with_mass(dry, body, colliders), error))
+        let error = inertia_error(&body.mass_properties().local_mprops, &saved.dry);
+        Ok((saved, error))
+    }
+
+    fn weighs_as(&self, other: &Self) -> bool {
+        self.colliders.len() == other.colliders.len()
+            && self.additional == other.additional
+            && (self.colliders.iter().zip(&other.colliders)).all(|(a, b)| a.weighs_as(b))
     }
 
     /// The same for a body whose mass is known.
@@ -153,7 +175,7 @@ impl SavedProperties {
             gyroscopic: body.gyroscopic_forces_enabled(),
             fast_rotation: body.is_fast_rotation_allowed(),
             fast_written: true,
-            carrier: NONE,
+            carried: false,
             written: MassProperties::default(),
         }
     }
@@ -192,16 +214,19 @@ impl SavedProperties {
         bodies: &mut RigidBodySet,
         colliders: &mut ColliderSet,
     ) {
-        let properties = constants.wet(mass).to_mass_properties();
-        (self.carrier, self.written) = (NONE, properties);
-        for (index, kept) in self.colliders.iter().enumerate() {
+        let properties = constants.rapier_properties(mass);
+        (self.carried, self.written) = (false, properties);
+        for kept in &mut self.colliders {
+            kept.carries = false;
             let Some(collider) = colliders.get_mut(kept.handle) else {
                 continue;
             };
-            if self.carrier == NONE && collider.is_enabled() {
-                self.carrier = index as u32;
+            if !self.carried && collider.is_enabled() {
+                (self.carried, kept.carries) = (true, true);
                 self.written = properties.transform_by(&kept.pose.inverse());
                 collider.set_mass_properties(self.written);
+                // Rapier keeps what equals the new, whatever the signs of its zeros.
+                self.written = collider.mass_properties();
             } else {
                 collider.set_mass_properties(no_mass(kept));
             }
@@ -209,8 +234,12 @@ impl SavedProperties {
         let Some(body) = bodies.get_mut(handle) else {
             return;
         };
-        if self.carrier == NONE {
+        if !self.carried {
             body.set_additional_mass_properties(properties, false);
+            let now = body.mass_properties().additional_local_mprops.as_deref();
+            if let Some(RigidBodyAdditionalMassProps::MassProps(now)) = now {
+                self.written = *now;
+            }
         } else if self.has_additional() {
             // The user may set zero, which must differ.
             body.set_additional_mass(NO_MASS, false);
@@ -238,10 +267,10 @@ impl SavedProperties {
 
     /// Whether a collider of the body still has the mass properties that the crate gave it.
     #[inline(always)]
-    pub fn wrote(&self, index: usize, collider: &Collider) -> bool {
+    pub fn wrote(&self, kept: &KeptCollider, collider: &Collider) -> bool {
         let now = collider.mass_properties();
-        if index as u32 == self.carrier {
-            now == self.written
+        if kept.carries {
+            are_same(&now, &self.written)
         } else {
             says_none(&now)
         }
@@ -260,8 +289,8 @@ impl SavedProperties {
     fn wrote_additional(&self, body: &RigidBody) -> bool {
         let now = body.mass_properties().additional_local_mprops.as_deref();
         match now {
-            Some(RigidBodyAdditionalMassProps::MassProps(now)) if self.carrier == NONE => {
-                *now == self.written
+            Some(RigidBodyAdditionalMassProps::MassProps(now)) if !self.carried => {
+                are_same(now, &self.written)
             }
             Some(RigidBodyAdditionalMassProps::MassProps(now)) => says_none(now),
             Some(RigidBodyAdditionalMassProps::Mass(now)) => *now == NO_MASS,
@@ -276,9 +305,9 @@ impl SavedProperties {
         bodies: &mut RigidBodySet,
         colliders: &mut ColliderSet,
     ) {
-        for (index, kept) in self.colliders.iter().enumerate() {
+        for kept in &self.colliders {
             if let Some(collider) = colliders.get(kept.handle)
-                && self.wrote(index, collider)
+                && self.wrote(kept, collider)
                 && let Some(collider) = colliders.get_mut(kept.handle)
             {
                 kept.mass.give_to(collider);

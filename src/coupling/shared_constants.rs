@@ -162,6 +162,8 @@ pub(super) struct SharedConstants {
     pub inverse_mass: Matrix6<f64>,
     /// 𝕄₁₁ by its principal axes.
     pub principal_mass: PrincipalMass,
+    /// What rapier is given while nothing touches the body.
+    free: MassProperties,
     /// Whether a push at the center of mass turns the body (A₁₂ ≠ 0).
     pub coupled: bool,
 }
@@ -227,6 +229,7 @@ impl SharedConstants {
             return Err(Error::BeyondSinglePrecision { mass, length });
         }
         Ok(Self {
+            free: wet(&constants, dry.mass).to_mass_properties(),
             description,
             body: body.clone(),
             step,
@@ -248,11 +251,15 @@ impl SharedConstants {
 
     /// What rapier is given: the scalar mass it can use, and I + ρA₂₂.
     pub fn wet(&self, mass: f64) -> DryMass {
-        let dry = &self.constants.dry;
-        DryMass {
-            mass,
-            center: dry.center,
-            inertia: dry.inertia + self.constants.added_mass.angular,
+        wet(&self.constants, mass)
+    }
+
+    /// The same as rapier's mass properties.
+    pub fn rapier_properties(&self, mass: f64) -> MassProperties {
+        if mass == self.constants.dry.mass {
+            self.free
+        } else {
+            self.wet(mass).to_mass_properties()
         }
     }
 
@@ -278,6 +285,15 @@ impl SharedConstants {
     /// another description since, so that the description itself is compared, too.
     fn is(&self, description: u32, body: &ImmersedBody, dry: &DryMass) -> bool {
         self.description == description && self.constants.dry == *dry && self.body == *body
+    }
+}
+
+fn wet(constants: &BodyConstants, mass: f64) -> DryMass {
+    let dry = &constants.dry;
+    DryMass {
+        mass,
+        center: dry.center,
+        inertia: dry.inertia + constants.added_mass.angular,
     }
 }
 

@@ -69,8 +69,8 @@ pub(in crate::coupling) fn move_newcomers(parts: &mut StepParts, sets: &mut Rapi
     };
     for handle in std::mem::take(&mut parts.registry.newcomers) {
         let index = parts.registry.index(handle);
-        if index.is_some_and(|index| !parts.workspace.moved.get(index).is_some_and(|moved| *moved))
-        {
+        let moved = index.and_then(|index| parts.workspace.moved.get(index));
+        if moved != Some(&1) {
             move_body(handle, parts, sets, &context);
         }
     }

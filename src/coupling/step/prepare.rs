@@ -25,13 +25,14 @@ pub(super) struct Preparation<'a> {
     pub close: &'a CloseBodies,
     pub context: &'a StepContext,
     pub registry: &'a mut Registry,
-    pub moved: &'a mut [bool],
+    pub moved: &'a mut [u8],
     pub changed: &'a mut Vec<u32>,
     pub batches: &'a mut [Batch; Route::COUNT],
 }
 
 /// Puts an awake body into the batch of its route, if it is immersed; one that its user has changed is set
 /// aside.
+#[inline(never)]
 pub(super) fn prepare(
     handle: RigidBodyHandle,
     sets: &RapierSets,
@@ -119,7 +120,7 @@ pub(super) fn prepare(
         continues && [change_linear, change_angular, force, torque] == [Vector::ZERO; 4];
 
     if let Some(moved) = to.moved.get_mut(index) {
-        *moved = true;
+        *moved = 1;
     }
     let batch = &mut to.batches[shared.route.index()];
     let disturbance = if undisturbed {

@@ -295,9 +295,10 @@ pub(in crate::coupling) struct Workspace {
     pub held: Vec<HeldStart>,
     pub moved_by_mean: Vec<MeanMotion>,
     pub samples: Vec<FlowSample>,
-    /// Which bodies this step moves, and which the last one moved, by the index of their state.
-    pub moved: Vec<bool>,
-    pub moved_before: Vec<bool>,
+    /// Which bodies this step moves, and which the last one moved, by the index of their state: ones, as bytes
+    /// that compare fast.
+    pub moved: Vec<u8>,
+    pub moved_before: Vec<u8>,
     /// Indices of the states of bodies that their users have changed, which are not moved yet.
     pub changed: Vec<u32>,
     /// Bodies at which the flow was no number in this step.
@@ -309,15 +310,13 @@ impl Workspace {
     pub fn begin_marks(&mut self, bodies: usize) {
         std::mem::swap(&mut self.moved, &mut self.moved_before);
         self.moved.clear();
-        self.moved.resize(bodies, false);
+        self.moved.resize(bodies, 0);
     }
 
     /// Indices of the bodies that the last step moved and this one does not.
     pub fn missed(&self) -> impl Iterator<Item = usize> {
         let both = self.moved_before.iter().zip(&self.moved);
-        let missed = both
-            .enumerate()
-            .filter(|(_, (before, now))| **before && !**now);
+        let missed = both.enumerate().filter(|(_, (before, now))| *before > *now);
         missed.map(|(index, _)| index)
     }
 
