@@ -225,8 +225,7 @@ impl Admission<'_> {
                 Some((state.saved.as_deref()?, error))
             });
             let (saved, error) = SavedProperties::of(handle, sets.bodies, sets.colliders, like)?;
-            self.last = Some((index, error));
-            dry_error = Some(error).filter(|error| *error > REPORTED_ERROR);
+            dry_error = Some(error);
             if let Some(state) = self.registry.at_mut(index) {
                 state.saved = Some(Box::new(saved));
             }
@@ -241,11 +240,23 @@ impl Admission<'_> {
             return Ok(());
         };
         let (dry, description) = (saved.dry, state.description);
-        let fluid = &self.environment.fluid;
-        let used = || self.registry.used_constants();
-        let constants = self
-            .constants
-            .intern(description, body, &dry, fluid, used)?;
+        let last = self
+            .last
+            .and_then(|(last, _)| self.registry.states()[last].as_ref());
+        let equal = last.filter(|last| {
+            last.description == description
+                && last.saved.as_ref().is_some_and(|saved| saved.dry == dry)
+                && self.constants.get(last.constants).is_some()
+        });
+        let constants = match equal {
+            Some(last) if last.handle != handle => last.constants,
+            _ => {
+                let fluid = &self.environment.fluid;
+                let used = || self.registry.used_constants();
+                self.constants
+                    .intern(description, body, &dry, fluid, used)?
+            }
+        };
         let Some(state) = self.registry.at_mut(index) else {
             return Ok(());
         };
@@ -264,7 +275,8 @@ impl Admission<'_> {
         state.flight.corrected_contacts = 0;
         state.flight.solver_mass = dry.mass as Real;
         state.flight.converts_torque = wet_error.is_some();
-        if let Some(relative_error) = wet_error.or(dry_error)
+        let known_error = dry_error.filter(|error| *error > REPORTED_ERROR);
+        if let Some(relative_error) = wet_error.or(known_error)
             && !std::mem::replace(&mut state.warned.inertia, true)
         {
             self.warnings.push(if wet_error.is_some() {
@@ -278,6 +290,9 @@ impl Admission<'_> {
                     relative_error,
                 }
             });
+        }
+        if let Some(error) = dry_error {
+            self.last = Some((index, error));
         }
         self.registry.newcomers.push(handle);
         Ok(())

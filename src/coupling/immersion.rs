@@ -34,8 +34,11 @@ use std::sync::Arc;
 /// # What it does to a body
 /// From the step after its insertion until it is removed or disabled, an immersed body
 /// * has all its mass properties moved to its first enabled collider, with the fluid's share of the
-///   rotational inertia (and, near contacts, of the mass) added: other colliders then read
-///   `mass() == 0`;
+///   rotational inertia (and, near contacts, of the mass) added. Between steps rapier's `body.mass()` and
+///   that collider's `mass()` therefore read the mass that the solver uses (the body's own in free flight,
+///   that along the normal or the joint's pull when something holds it), its inertia reads I + ρA₂₂, other
+///   colliders read `mass() == 0`, and so do the body's additional mass properties. The body's own mass is
+///   [`Immersion::mass_of`], that of body and fluid [`Immersion::mass_matrix_of`];
 /// * may rotate by more than 45° per step, and has rapier's gyroscopic forces off (the crate
 ///   integrates them);
 /// * does not fall asleep unless it touches something, is jointed or has locked axes;
@@ -46,10 +49,26 @@ use std::sync::Arc;
 /// with solver iterations of their own get their motion by a force alone, like bodies in contact.
 /// Kinematic bodies are left alone until they become dynamic.
 ///
-/// # Memory
-/// About 550 bytes per body, besides what equal bodies share.
+/// # Changing a body
+/// Colliders of an immersed body may be added, removed, disabled, moved, and given other shapes, densities and
+/// masses, the body other additional mass, at any time between steps: the next step moves it as what it has
+/// become, as [`Immersion::body_changes`] says. What is set on a collider or as additional mass is meant as for
+/// a body without fluid; what is not set stays as it was before the immersion. `set_density(0.0)` on a collider
+/// that reads a mass of zero is such a change, too; only an explicit `MassProperties::default()` on a collider at
+/// the body's origin is not seen, unless the collider is the first. A body that cannot be immersed as what it
+/// has become (without mass, say) is left to rapier, with a [`Warning::Refused`], until it can. A body that
+/// sleeps is looked at once in 16 steps. What [`Immersion::remove`] gives back is what was set last.
 ///
-/// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
+/// Impulses: rapier's `apply_impulse(J)` pushes the body as if there were no fluid;
+/// [`Immersion::apply_impulse`] moves the fluid that it drags along, too. Forces need no such care: the step
+/// shares them between body and fluid.
+///
+/// One body belongs to one immersion; another one that it is inserted in says so
+/// ([`Warning::ImmersedTwice`]) and leaves it alone. An immersion that is dropped cannot give its bodies back:
+/// remove them first if the world goes on.
+///
+/// # Memory
+/// About 800 bytes per body, besides what equal bodies share.
 ///
 /// ```
 /// use rapier3d_immersed::rapier3d::prelude::*;
