@@ -49,8 +49,9 @@ impl HydroProperties {
         if parts.is_empty() {
             return Err(Error::NoCollider);
         }
+        let surface = Surface::of_parts(&parts, Surface::from_shape)?;
         let center = DryMass::of_body(bodies, colliders, handle)?.center;
-        Self::of_parts(&parts, center)?.with_accuracy(&parts, accuracy)
+        Self::from_surface(&surface, center).with_accuracy(&parts, accuracy)
     }
 
     /// Properties of shapes at their poses in a body's frame, referred to `center`.

@@ -1,12 +1,11 @@
 //! Bodies that enter and leave the fluid, and a slow look at those that the step does not visit.
 
-use super::body_changes::BodyChanges;
-use super::body_look::{Difference, body_mark};
+use super::body_look::{BodyChanges, body_mark};
 use super::body_state::BodyState;
 use super::environment::Environment;
 use super::rapier_sets::RapierSets;
 use super::registry::{Registry, SWEEP};
-use super::saved_properties::{SavedProperties, is_immersed};
+use super::saved_properties::{Difference, SavedProperties, is_immersed};
 use super::shared_constants::ConstantsTable;
 use super::warning::{Warning, Warnings};
 use crate::error::Error;

@@ -6,33 +6,15 @@
 //! rapier but for what the user has set, read anew, and immersed anew, at once.
 
 use super::admission::Admission;
-use super::body_look::{Difference, KeptCollider};
+use super::body_look::{BodyChanges, KeptCollider};
 use super::body_state::NONE;
 use super::rapier_sets::RapierSets;
-use super::saved_properties::SavedProperties;
+use super::saved_properties::{Difference, SavedProperties};
 use super::warning::Warning;
 use crate::body::ImmersedBody;
 use crate::error::Error;
 use crate::hydro::HydroProperties;
 use rapier3d::na::Vector3;
-
-/// What becomes of a body in the fluid whose colliders or mass its user changes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
-pub enum BodyChanges {
-    /// The next step moves the body as what it has become. Its mass is always taken over. So is its shape,
-    /// if the body's description is what
-    /// [`HydroProperties::from_body`] made of the shape that it had; another description is the user's own
-    /// and stays, with a [`Warning::ShapeKept`]. Velocities stay as they are, as in rapier.
-    #[default]
-    Follow,
-    /// The body goes on as what it was when it entered the fluid, with a [`Warning::ChangeIgnored`]; when it
-    /// leaves the fluid it is what its user has made of it. Contacts are those of the new shape.
-    Ignore,
-}
 
 impl Admission<'_> {
     /// Looks at a body in the fluid that may have changed, and moves it in this step.

@@ -1,12 +1,29 @@
 //! What a rapier body is made of, as it was last seen: rapier tells nobody which bodies a user has changed.
 
-use super::saved_properties::SavedProperties;
 use rapier3d::dynamics::{MassProperties, RigidBody, RigidBodyAdditionalMassProps};
 use rapier3d::geometry::{Collider, ColliderHandle, ColliderSet, SharedShape};
 use rapier3d::math::{Pose, Real, Vector};
 use rapier3d::parry::shape::{Shape, TypedShape};
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
+
+/// What becomes of a body in the fluid whose colliders or mass its user changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub enum BodyChanges {
+    /// The next step moves the body as what it has become. Its mass is always taken over. So is its shape,
+    /// if the body's description is what
+    /// [`HydroProperties::from_body`](crate::HydroProperties::from_body) made of the shape that it had; another description is the user's own
+    /// and stays, with a [`Warning::ShapeKept`](crate::Warning::ShapeKept). Velocities stay as they are, as in rapier.
+    #[default]
+    Follow,
+    /// The body goes on as what it was when it entered the fluid, with a [`Warning::ChangeIgnored`](crate::Warning::ChangeIgnored); when it
+    /// leaves the fluid it is what its user has made of it. Contacts are those of the new shape.
+    Ignore,
+}
 
 /// How a user gave a collider its mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,7 +126,7 @@ impl KeptCollider {
 
     /// Whether a collider is this one, of the same shape at the same place.
     #[inline(always)]
-    fn is(&self, handle: ColliderHandle, collider: &Collider) -> bool {
+    pub fn is(&self, handle: ColliderHandle, collider: &Collider) -> bool {
         let (Some(shape), Some(pose)) = (&self.shape, collider.position_wrt_parent()) else {
             return false;
         };
@@ -131,7 +148,7 @@ impl KeptCollider {
     }
 
     /// The same after loading: the shape is held from now on if it is the one that was kept.
-    fn is_loaded(&mut self, handle: ColliderHandle, collider: &Collider) -> bool {
+    pub fn is_loaded(&mut self, handle: ColliderHandle, collider: &Collider) -> bool {
         #[cfg(feature = "serde-serialize")]
         if self.shape.is_none() && shape_mark(collider) == self.shape_mark {
             self.shape = Some(collider.shared_shape().clone());
@@ -166,53 +183,6 @@ fn are_equal(a: &dyn Shape, b: &dyn Shape) -> bool {
 fn pose_of(collider: &Collider) -> Pose {
     let pose = collider.position_wrt_parent().copied();
     pose.unwrap_or(Pose::IDENTITY)
-}
-
-/// What has changed of a body since it was last read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Difference {
-    Nothing,
-    /// Its mass or its switches.
-    Mass,
-    /// What displaces fluid (and so perhaps the mass).
-    Shape,
-}
-
-impl SavedProperties {
-    /// Whether a body is as it was left: the question of every step.
-    #[inline(always)]
-    pub fn still_holds(&self, body: &RigidBody, colliders: &ColliderSet) -> bool {
-        let handles = body.colliders();
-        if handles.len() != self.colliders.len() || !self.wrote_body(body) {
-            return false;
-        }
-        for (kept, handle) in self.colliders.iter().zip(handles) {
-            let Some(collider) = colliders.get(*handle) else {
-                return false;
-            };
-            if !(kept.is(*handle, collider) && self.wrote(kept, collider)) {
-                return false;
-            }
-        }
-        true
-    }
-
-    /// What has changed of a body that may not be as it was left.
-    pub fn difference(&mut self, body: &RigidBody, colliders: &ColliderSet) -> Difference {
-        let handles = body.colliders();
-        let mut same_shape = handles.len() == self.colliders.len();
-        for (kept, handle) in self.colliders.iter_mut().zip(handles) {
-            let collider = colliders.get(*handle);
-            same_shape &= collider.is_some_and(|collider| kept.is_loaded(*handle, collider));
-        }
-        if !same_shape {
-            Difference::Shape
-        } else if self.still_holds(body, colliders) {
-            Difference::Nothing
-        } else {
-            Difference::Mass
-        }
-    }
 }
 
 /// A number that stays while nobody changes what a body is made of, and hardly can otherwise.

@@ -1,7 +1,7 @@
 //! The set of immersed bodies: what users hold.
 
 use super::admission::{self, Admission};
-use super::body_changes::BodyChanges;
+use super::body_look::BodyChanges;
 use super::control::{OnContact, SeriesTable};
 use super::environment::Environment;
 use super::impulse;

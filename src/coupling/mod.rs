@@ -30,7 +30,7 @@ mod snapshot;
 mod step;
 mod warning;
 
-pub use body_changes::BodyChanges;
+pub use body_look::BodyChanges;
 pub use control::OnContact;
 pub use immersion::Immersion;
 pub use rapier_sets::RapierSets;

@@ -39,6 +39,16 @@ pub(super) struct SavedProperties {
     written: MassProperties,
 }
 
+/// What has changed of a body since it was last read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Difference {
+    Nothing,
+    /// Its mass or its switches.
+    Mass,
+    /// What displaces fluid (and so perhaps the mass).
+    Shape,
+}
+
 /// An additional mass that says that there is none: a number that nobody sets, too small to change any mass.
 const NO_MASS: Real = Real::from_bits(0x0000_a7f1);
 
@@ -334,6 +344,43 @@ impl SavedProperties {
                 body.set_allow_fast_rotation(self.fast_rotation);
             }
             body.recompute_mass_properties_from_colliders(colliders);
+        }
+    }
+}
+
+impl SavedProperties {
+    /// Whether a body is as it was left: the question of every step.
+    #[inline(always)]
+    pub fn still_holds(&self, body: &RigidBody, colliders: &ColliderSet) -> bool {
+        let handles = body.colliders();
+        if handles.len() != self.colliders.len() || !self.wrote_body(body) {
+            return false;
+        }
+        for (kept, handle) in self.colliders.iter().zip(handles) {
+            let Some(collider) = colliders.get(*handle) else {
+                return false;
+            };
+            if !(kept.is(*handle, collider) && self.wrote(kept, collider)) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// What has changed of a body that may not be as it was left.
+    pub fn difference(&mut self, body: &RigidBody, colliders: &ColliderSet) -> Difference {
+        let handles = body.colliders();
+        let mut same_shape = handles.len() == self.colliders.len();
+        for (kept, handle) in self.colliders.iter_mut().zip(handles) {
+            let collider = colliders.get(*handle);
+            same_shape &= collider.is_some_and(|collider| kept.is_loaded(*handle, collider));
+        }
+        if !same_shape {
+            Difference::Shape
+        } else if self.still_holds(body, colliders) {
+            Difference::Nothing
+        } else {
+            Difference::Mass
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Snapshots of an immersion: what is written, and what is refused when it is read.
 
 use super::admission::renew_constants;
-use super::body_changes::BodyChanges;
+use super::body_look::BodyChanges;
 use super::body_state::{BodyState, FlightState};
 use super::control::SeriesTable;
 use super::environment::Environment;

@@ -592,3 +592,45 @@ fn an_impulse_lasts() {
     let v = world.bodies[body].linvel();
     assert!((v - Vector::X).length() < 1e-5, "{v}");
 }
+
+/// A loaded snapshot goes on to the bit: that shapes have other addresses then is no change. What is changed
+/// after loading is seen.
+#[cfg(feature = "serde-serialize")]
+#[test]
+fn loading_is_no_change() {
+    let mut scene = Scene::new(Fluid::WATER, 0.02);
+    scene.immerse();
+    scene.steps(30);
+    let world = postcard::to_stdvec(&scene.world).unwrap();
+    let immersion = postcard::to_stdvec(&scene.immersion).unwrap();
+    let mut loaded = Scene {
+        world: postcard::from_bytes(&world).unwrap(),
+        immersion: postcard::from_bytes(&immersion).unwrap(),
+        body: scene.body,
+        plates: scene.plates,
+    };
+    for changed in [false, true] {
+        if changed {
+            for scene in [&mut scene, &mut loaded] {
+                scene
+                    .plate(0)
+                    .set_shape(SharedShape::cuboid(0.025, 0.003, 0.05));
+                scene.rigid_body().set_additional_mass(0.0, true);
+            }
+        }
+        for step in 0..20 {
+            scene.steps(1);
+            loaded.steps(1);
+            let [is, should] = [&loaded, &scene].map(|s| {
+                let body = &s.world.bodies[s.body];
+                (*body.position(), body.linvel(), body.angvel())
+            });
+            assert_eq!(is, should, "changed: {changed}, step {step}");
+        }
+        let mass = loaded.immersion.mass_of(loaded.body).unwrap().mass;
+        let volume = 0.05 * 0.1 * if changed { 0.008 } else { 0.004 };
+        let expected = 1500.0 * volume + if changed { 0.0 } else { 0.02 };
+        assert!((mass / expected - 1.0).abs() < 1e-5, "{mass}");
+        assert_eq!(loaded.immersion.warnings(), []);
+    }
+}
