@@ -90,7 +90,7 @@ pub mod training;
 pub mod turbulence;
 
 pub use body::{DryMass, ImmersedBody};
-pub use coupling::{Immersion, OnContact, RapierSets, Warning};
+pub use coupling::{BodyChanges, Immersion, OnContact, RapierSets, Warning};
 pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;

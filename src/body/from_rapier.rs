@@ -53,6 +53,18 @@ impl HydroProperties {
         let center = DryMass::of_body(bodies, colliders, handle)?.center;
         Self::from_surface(&surface, center).with_accuracy(&parts, accuracy)
     }
+
+    /// Properties of shapes at their poses in a body's frame, referred to `center`.
+    pub(crate) fn of_parts(
+        parts: &[(Pose, &dyn Shape)],
+        center: Vector3<f64>,
+    ) -> Result<Self, Error> {
+        if parts.is_empty() {
+            return Err(Error::NoCollider);
+        }
+        let surface = Surface::of_parts(parts, Surface::from_shape)?;
+        Ok(Self::from_surface(&surface, center))
+    }
 }
 
 impl DryMass {

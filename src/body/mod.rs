@@ -72,6 +72,13 @@ pub struct DryMass {
 }
 
 impl DryMass {
+    /// No mass.
+    pub(crate) const NONE: Self = Self {
+        mass: 0.0,
+        center: Vector3::new(0.0, 0.0, 0.0),
+        inertia: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    };
+
     /// The mass properties of a solid of uniform density that fills a closed surface, in the surface's
     /// frame. `mass` in kg; what it weighs at a density is `density * surface.volume_integrals().volume`.
     ///

@@ -1,16 +1,18 @@
 //! Bodies that enter and leave the fluid, and a slow look at those that the step does not visit.
 
+use super::body_look::{BodyChanges, body_mark};
 use super::body_state::BodyState;
 use super::environment::Environment;
 use super::rapier_sets::RapierSets;
 use super::registry::{Registry, SWEEP};
-use super::saved_properties::SavedProperties;
+use super::saved_properties::{Difference, SavedProperties, is_immersed};
 use super::shared_constants::ConstantsTable;
 use super::warning::{Warning, Warnings};
 use crate::body::from_rapier::CoreMass;
 use crate::error::Error;
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::math::{Real, Vector};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A change of the fluid around a sleeping body wakes it when the pressure that it could exert, or the
 /// change of the weight, is this share of the weight.
@@ -66,15 +68,22 @@ pub(super) fn renew_constants_of(
 pub(super) struct Admission<'a> {
     /// Whether the fluid is on.
     pub enabled: bool,
+    pub changes: BodyChanges,
     pub environment: &'a Environment,
     pub registry: &'a mut Registry,
     pub constants: &'a mut ConstantsTable,
     pub warnings: &'a mut Warnings,
+    /// The body that entered last, and the error of rapier's own inertia for it.
+    pub last: Option<(usize, f64)>,
 }
 
 impl Admission<'_> {
     /// Lets bodies in and out after a change, and wakes sleepers when gravity has changed.
     pub fn admit(&mut self, sets: &mut RapierSets) {
+        self.forget_removed(sets);
+        for index in self.registry.take_waiting() {
+            self.look_at_waiting(index as usize, sets);
+        }
         if std::mem::take(&mut self.registry.changed) {
             for index in 0..self.registry.states().len() {
                 self.enter_or_leave(index, sets);
@@ -89,25 +98,108 @@ impl Admission<'_> {
         }
     }
 
-    /// Lets a newly inserted or enabled body into the fluid, one whose description or fluid has changed in
-    /// anew, or a disabled one out.
-    fn enter_or_leave(&mut self, index: usize, sets: &mut RapierSets) {
+    /// Forgets bodies that rapier has removed, if there are fewer than before: who sleeps is not missed by
+    /// the step.
+    fn forget_removed(&mut self, sets: &mut RapierSets) {
+        let before = std::mem::replace(&mut self.registry.rapier_bodies, sets.bodies.len());
+        if sets.bodies.len() < before {
+            for index in 0..self.registry.states().len() {
+                self.forget_if_removed(index, sets);
+            }
+        }
+    }
+
+    fn forget_if_removed(&mut self, index: usize, sets: &mut RapierSets) {
+        let Some(state) = &self.registry.states()[index] else {
+            return;
+        };
+        if sets.bodies.contains(state.handle) {
+            return;
+        }
+        if let Some(state) = self.registry.forget(index)
+            && let Some(saved) = state.saved
+        {
+            // Its colliders may live on without it.
+            saved.restore(state.handle, sets.bodies, sets.colliders);
+        }
+    }
+
+    /// Looks at a body that could not be moved in the last step.
+    fn look_at_waiting(&mut self, index: usize, sets: &mut RapierSets) {
+        self.forget_if_removed(index, sets);
         let Some(state) = self.registry.at_mut(index) else {
             return;
         };
-        let wanted = self.enabled && state.enabled;
-        if wanted == state.saved.is_some() && (!wanted || !state.outdated) {
-            return;
-        }
-        let handle = state.handle;
-        if !wanted {
-            if let Some(saved) = state.saved.take() {
+        if sets.bodies.get(state.handle).is_some_and(can_move) {
+            let was_disabled = std::mem::take(&mut state.disabled);
+            if state.saved.is_some() && !state.outdated {
+                // Rapier may list it as active only after its next step.
                 state.flight.continues = false;
-                saved.restore(handle, sets.bodies, sets.colliders);
+                state.enabling = was_disabled;
+                let handle = state.handle;
+                self.registry.newcomers.push(handle);
+            } else if was_disabled {
+                // Its colliders are enabled with rapier's next step.
+                return self.registry.wait(index);
             }
-        } else if sets.bodies.get(handle).is_some_and(RigidBody::is_dynamic)
-            && let Err(reason) = self.enter(index, handle, sets)
+        }
+        self.enter_or_leave(index, sets);
+    }
+
+    /// Looks at a body that the last step moved and this one does not.
+    pub fn look_at_missed(&mut self, index: usize, sets: &mut RapierSets) {
+        self.forget_if_removed(index, sets);
+        if let Some(state) = self.registry.at_mut(index)
+            && let Some(body) = sets.bodies.get(state.handle)
+            && !can_move(body)
         {
+            state.disabled = !body.is_enabled();
+            self.registry.wait(index);
+        }
+    }
+
+    /// Lets a newly inserted or enabled body into the fluid, one whose description or fluid has changed in
+    /// anew, or a disabled one out.
+    pub fn enter_or_leave(&mut self, index: usize, sets: &mut RapierSets) {
+        let Some(state) = self.registry.at_mut(index) else {
+            return;
+        };
+        let handle = state.handle;
+        let Some(body) = sets.bodies.get(handle) else {
+            return;
+        };
+        if !(self.enabled && state.enabled) {
+            state.refused = None;
+            self.give_back(index, sets);
+        } else if !can_move(body) {
+            state.disabled = !body.is_enabled();
+            self.registry.wait(index);
+        } else if state.saved.is_some() {
+            if state.outdated {
+                self.enter_or_be_refused(index, handle, sets);
+            }
+        } else if is_immersed(body) {
+            if !std::mem::replace(&mut state.warned.immersed_twice, true) {
+                self.warnings.push(Warning::ImmersedTwice { body: handle });
+            }
+            self.registry.wait(index);
+        } else if state.refused.is_none()
+            || std::mem::take(&mut state.outdated)
+            || state.refused != Some(body_mark(body, sets.colliders))
+        {
+            self.enter_or_be_refused(index, handle, sets);
+        } else {
+            self.registry.wait(index);
+        }
+    }
+
+    fn enter_or_be_refused(
+        &mut self,
+        index: usize,
+        handle: RigidBodyHandle,
+        sets: &mut RapierSets,
+    ) {
+        if let Err(reason) = self.enter(index, handle, sets) {
             self.refuse(index, handle, sets, &reason);
         }
     }
@@ -119,18 +211,27 @@ impl Admission<'_> {
         handle: RigidBodyHandle,
         sets: &mut RapierSets,
     ) -> Result<(), Error> {
-        let Some(state) = self.registry.at_mut(index) else {
-            return Ok(());
-        };
+        self.leave_if_changed(index, sets);
         // The error of rapier's own inertia is known only of a body that is read for the first time.
         let mut dry_error = None;
         let mut core_mass = None;
-        if state.saved.is_none() {
+        if self
+            .registry
+            .at_mut(index)
+            .is_some_and(|state| state.saved.is_none())
+        {
+            self.follow_shape(index, sets)?;
             core_mass = CoreMass::of_body(sets.bodies, sets.colliders, handle)?
                 .filter(|mass| mass.missing() > REPORTED_ERROR);
-            let (saved, error) = SavedProperties::of(handle, sets.bodies, sets.colliders)?;
-            state.saved = Some(Box::new(saved));
-            dry_error = Some(error).filter(|error| *error > REPORTED_ERROR);
+            let like = self.last.and_then(|(index, error)| {
+                let state = self.registry.states()[index].as_ref()?;
+                Some((state.saved.as_deref()?, error))
+            });
+            let (saved, error) = SavedProperties::of(handle, sets.bodies, sets.colliders, like)?;
+            dry_error = Some(error);
+            if let Some(state) = self.registry.at_mut(index) {
+                state.saved = Some(Box::new(saved));
+            }
         } else {
             // A body that sleeps in another fluid, or as another shape, may not rest there.
             self.wake(handle, sets);
@@ -142,22 +243,36 @@ impl Admission<'_> {
             return Ok(());
         };
         let (dry, description) = (saved.dry, state.description);
-        let fluid = &self.environment.fluid;
-        let used = || self.registry.used_constants();
-        let constants = self
-            .constants
-            .intern(description, body, &dry, fluid, used)?;
-        let Some(shared) = self.constants.get(constants) else {
+        let last = self
+            .last
+            .and_then(|(last, _)| self.registry.states()[last].as_ref());
+        let equal = last.filter(|last| {
+            last.description == description
+                && last.saved.as_ref().is_some_and(|saved| saved.dry == dry)
+                && self.constants.get(last.constants).is_some()
+        });
+        let constants = match equal {
+            Some(last) if last.handle != handle => last.constants,
+            _ => {
+                let fluid = &self.environment.fluid;
+                let used = || self.registry.used_constants();
+                self.constants
+                    .intern(description, body, &dry, fluid, used)?
+            }
+        };
+        let Some(state) = self.registry.at_mut(index) else {
+            return Ok(());
+        };
+        let (Some(shared), Some(saved)) = (self.constants.get(constants), &mut state.saved) else {
             return Ok(());
         };
         let error = saved.immerse(shared, dry.mass, handle, sets.bodies, sets.colliders);
         let wet_error = Some(error).filter(|error| *error > CONVERTED_ERROR);
-        self.registry.newcomers.push(handle);
-        let Some(state) = self.registry.at_mut(index) else {
-            return Ok(());
-        };
+        state.left = None;
+        state.refused = None;
         state.constants = constants;
         state.outdated = false;
+        state.described_anew = false;
         // What was integrated belonged to other constants; rapier's velocities are what is left of it.
         state.flight.continues = false;
         state.flight.corrected_contacts = 0;
@@ -172,7 +287,8 @@ impl Admission<'_> {
                 whole_mass: mass.whole,
             });
         }
-        if let Some(relative_error) = wet_error.or(dry_error)
+        let known_error = dry_error.filter(|error| *error > REPORTED_ERROR);
+        if let Some(relative_error) = wet_error.or(known_error)
             && !std::mem::replace(&mut state.warned.inertia, true)
         {
             self.warnings.push(if wet_error.is_some() {
@@ -187,10 +303,47 @@ impl Admission<'_> {
                 }
             });
         }
+        if let Some(error) = dry_error {
+            self.last = Some((index, error));
+        }
+        self.registry.newcomers.push(handle);
         Ok(())
     }
 
-    /// Gives a body that cannot be immersed back to rapier as it was, and says why.
+    /// Gives a body back to rapier that is let in anew, if its user has changed it, too: it is read anew
+    /// then.
+    fn leave_if_changed(&mut self, index: usize, sets: &mut RapierSets) {
+        let Some(state) = self.registry.at_mut(index) else {
+            return;
+        };
+        let described_anew = state.described_anew;
+        let (Some(saved), Some(body)) = (&mut state.saved, sets.bodies.get(state.handle)) else {
+            return;
+        };
+        if self.changes == BodyChanges::Ignore
+            || saved.difference(body, sets.colliders) == Difference::Nothing
+        {
+            return;
+        }
+        self.give_back(index, sets);
+        if described_anew && let Some(state) = self.registry.at_mut(index) {
+            state.left = None;
+        }
+    }
+
+    /// Takes a body out of the fluid: gives it back to rapier as its user wants it.
+    pub fn give_back(&mut self, index: usize, sets: &mut RapierSets) {
+        if let Some(state) = self.registry.at_mut(index)
+            && let Some(saved) = state.saved.take()
+        {
+            state.flight.continues = false;
+            saved.restore(state.handle, sets.bodies, sets.colliders);
+            state.left = Some(saved);
+        }
+    }
+
+    /// Gives a body that cannot be immersed back to rapier as it was, and says why. It is tried again when
+    /// it changes.
     fn refuse(
         &mut self,
         index: usize,
@@ -198,15 +351,17 @@ impl Admission<'_> {
         sets: &mut RapierSets,
         reason: &Error,
     ) {
+        self.give_back(index, sets);
+        self.registry.wait(index);
         let Some(state) = self.registry.at_mut(index) else {
             return;
         };
-        state.enabled = false;
-        if let Some(saved) = state.saved.take() {
-            state.flight.continues = false;
-            saved.restore(handle, sets.bodies, sets.colliders);
-        }
-        if !std::mem::replace(&mut state.warned.refused, true) {
+        let body = sets.bodies.get(handle);
+        state.refused = body.map(|body| body_mark(body, sets.colliders));
+        state.outdated = false;
+        let cause = cause_bit(reason);
+        if state.warned.refused & cause == 0 {
+            state.warned.refused |= cause;
             self.warnings.push(Warning::Refused {
                 body: handle,
                 reason: reason.to_string(),
@@ -214,7 +369,7 @@ impl Admission<'_> {
         }
     }
 
-    fn wake(&mut self, handle: RigidBodyHandle, sets: &mut RapierSets) {
+    pub fn wake(&mut self, handle: RigidBodyHandle, sets: &mut RapierSets) {
         if let Some(body) = sets.bodies.get_mut(handle)
             && body.is_sleeping()
         {
@@ -224,22 +379,28 @@ impl Admission<'_> {
     }
 
     /// Looks at a part of the bodies that the step does not visit: forgets those that rapier has
-    /// removed, and wakes sleepers around which the fluid has changed.
+    /// removed, takes over what users have changed of sleepers, and wakes them when the fluid around them
+    /// has changed.
     pub fn sweep(&mut self, sets: &mut RapierSets) {
         self.registry.sweep_phase = (self.registry.sweep_phase + 1) % SWEEP;
         let phase = self.registry.sweep_phase as usize;
         for index in (phase..self.registry.states().len()).step_by(SWEEP as usize) {
-            // A body may have become dynamic since the last look.
-            self.enter_or_leave(index, sets);
+            self.look_at_missed(index, sets);
             let Some(state) = &self.registry.states()[index] else {
                 continue;
             };
             let handle = state.handle;
             let Some(body) = sets.bodies.get(handle) else {
-                self.registry.forget(index);
                 continue;
             };
             if !body.is_sleeping() {
+                continue;
+            }
+            if let Some(saved) = &state.saved
+                && !state.enabling
+                && !saved.still_holds(body, sets.colliders)
+            {
+                self.take_over(index, sets);
                 continue;
             }
             let energy = self.turbulent_energy(state, body);
@@ -292,4 +453,20 @@ impl Admission<'_> {
         let weight = (c.dry.mass - c.displaced_mass).abs() as Real * gravity.length();
         pressure > WAKE_SHARE * weight
     }
+}
+
+/// Whether rapier moves a body by forces.
+fn can_move(body: &RigidBody) -> bool {
+    body.is_enabled() && body.is_dynamic()
+}
+
+/// One bit for the kind of reason, so that each is told once.
+fn cause_bit(reason: &Error) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    std::mem::discriminant(reason).hash(&mut hasher);
+    if let Error::InvalidParameter { parameter, .. } | Error::OutOfRange { parameter, .. } = reason
+    {
+        parameter.hash(&mut hasher);
+    }
+    1 << (hasher.finish() % 64)
 }

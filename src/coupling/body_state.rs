@@ -24,12 +24,31 @@ pub(super) struct BodyState {
     pub control: BodyControl,
     /// What rapier's body was before; `None` while it is not immersed.
     pub saved: Option<Box<SavedProperties>>,
+    /// What rapier's body was when it last left the fluid or was refused there: what it is made of when it
+    /// comes back is compared with this.
+    pub left: Option<Box<SavedProperties>>,
     /// Index of the constants that the body shares with its equals, `NONE` until they are known. They are
     /// made again when a snapshot is loaded.
     #[cfg_attr(feature = "serde-serialize", serde(skip, default = "none"))]
     pub constants: u32,
     /// Whether rapier's body is as another description or fluid wanted it.
     pub outdated: bool,
+    /// Whether the user has described the body anew since rapier's body was last read: a shape that has
+    /// changed meanwhile is the one that was described.
+    pub described_anew: bool,
+    /// Whether the body is on the list of those that cannot be moved now.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub waits: bool,
+    /// Whether the body waits because it is disabled in rapier.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub disabled: bool,
+    /// Whether it has just been enabled again: its colliders are with rapier's next step, and cannot be
+    /// looked at before.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub enabling: bool,
+    /// What the body was made of when it was refused, as a number: it is tried again when that changes.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub refused: Option<u64>,
     pub warned: Warned,
     pub flight: FlightState,
 }
@@ -46,7 +65,11 @@ fn none() -> u32 {
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub(super) struct Warned {
-    pub refused: bool,
+    /// One bit for each kind of reason.
+    pub refused: u64,
+    pub immersed_twice: bool,
+    pub shape_kept: bool,
+    pub change_ignored: bool,
     pub inertia: bool,
     pub core_mass: bool,
     pub flow: bool,

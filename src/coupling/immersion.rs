@@ -1,8 +1,10 @@
 //! The set of immersed bodies: what users hold.
 
-use super::admission;
+use super::admission::{self, Admission};
+use super::body_look::BodyChanges;
 use super::control::{OnContact, SeriesTable};
 use super::environment::Environment;
+use super::impulse;
 use super::rapier_sets::RapierSets;
 use super::readout;
 use super::registry::Registry;
@@ -10,7 +12,7 @@ use super::shared_constants::ConstantsTable;
 use super::step::driver::{self, StepParts};
 use super::step::workspace::Workspace;
 use super::warning::{Warning, Warnings};
-use crate::body::ImmersedBody;
+use crate::body::{DryMass, ImmersedBody};
 use crate::dynamics::{ForceBreakdown, Integrator};
 use crate::flow::Flow;
 use crate::fluid::Fluid;
@@ -19,6 +21,8 @@ use crate::motion::ControlSeries;
 use crate::turbulence::TurbulentLayer;
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::ColliderSet;
+use rapier3d::math::Vector;
+use rapier3d::na::Matrix6;
 use rapier3d::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 use std::sync::Arc;
 
@@ -30,8 +34,11 @@ use std::sync::Arc;
 /// # What it does to a body
 /// From the step after its insertion until it is removed or disabled, an immersed body
 /// * has all its mass properties moved to its first enabled collider, with the fluid's share of the
-///   rotational inertia (and, near contacts, of the mass) added: other colliders then read
-///   `mass() == 0`;
+///   rotational inertia (and, near contacts, of the mass) added. Between steps rapier's `body.mass()` and
+///   that collider's `mass()` therefore read the mass that the solver uses (the body's own in free flight,
+///   that along the normal or the joint's pull when something holds it), its inertia reads I + ρA₂₂, other
+///   colliders read `mass() == 0`, and so do the body's additional mass properties. The body's own mass is
+///   [`Immersion::mass_of`], that of body and fluid [`Immersion::mass_matrix_of`];
 /// * may rotate by more than 45° per step, and has rapier's gyroscopic forces off (the crate
 ///   integrates them);
 /// * does not fall asleep unless it touches something, is jointed or has locked axes;
@@ -42,10 +49,26 @@ use std::sync::Arc;
 /// with solver iterations of their own get their motion by a force alone, like bodies in contact.
 /// Kinematic bodies are left alone until they become dynamic.
 ///
-/// # Memory
-/// About 550 bytes per body, besides what equal bodies share.
+/// # Changing a body
+/// Colliders of an immersed body may be added, removed, disabled, moved, and given other shapes, densities and
+/// masses, the body other additional mass, at any time between steps: the next step moves it as what it has
+/// become, as [`Immersion::body_changes`] says. What is set on a collider or as additional mass is meant as for
+/// a body without fluid; what is not set stays as it was before the immersion. `set_density(0.0)` on a collider
+/// that reads a mass of zero is such a change, too; only an explicit `MassProperties::default()` on a collider at
+/// the body's origin is not seen, unless the collider is the first. A body that cannot be immersed as what it
+/// has become (without mass, say) is left to rapier, with a [`Warning::Refused`], until it can. A body that
+/// sleeps is looked at once in 16 steps. What [`Immersion::remove`] gives back is what was set last.
 ///
-/// To change the mass or the colliders of an immersed body, remove it, change it, insert it again.
+/// Impulses: rapier's `apply_impulse(J)` pushes the body as if there were no fluid;
+/// [`Immersion::apply_impulse`] moves the fluid that it drags along, too. Forces need no such care: the step
+/// shares them between body and fluid.
+///
+/// One body belongs to one immersion; another one that it is inserted in says so
+/// ([`Warning::ImmersedTwice`]) and leaves it alone. An immersion that is dropped cannot give its bodies back:
+/// remove them first if the world goes on.
+///
+/// # Memory
+/// About 800 bytes per body, besides what equal bodies share.
 ///
 /// ```
 /// use rapier3d_immersed::rapier3d::prelude::*;
@@ -73,6 +96,8 @@ use std::sync::Arc;
 pub struct Immersion {
     /// How finely flight is integrated within a step of rapier.
     pub integrator: Integrator,
+    /// What becomes of a body in the fluid whose colliders or mass its user changes.
+    pub body_changes: BodyChanges,
     pub(super) enabled: bool,
     pub(super) environment: Environment,
     pub(super) registry: Registry,
@@ -87,6 +112,7 @@ impl Immersion {
     pub fn new(fluid: Fluid) -> Self {
         Self {
             integrator: Integrator::default(),
+            body_changes: BodyChanges::default(),
             enabled: true,
             environment: Environment::new(fluid),
             registry: Registry::default(),
@@ -166,10 +192,32 @@ impl Immersion {
         self.registry.index(handle).is_some()
     }
 
-    /// Number of bodies in the set. Bodies that were removed from rapier count until the step has
-    /// come across them.
+    /// Number of bodies in the set as the last step found it: bodies that were removed from rapier since
+    /// count until the next. [`Immersion::len_in`] is right at once.
+    ///
+    /// A sleeping body whose removal rapier's number of bodies does not show, because another was inserted
+    /// in the same step, counts for up to 16 steps.
     pub fn len(&self) -> usize {
         self.registry.len()
+    }
+
+    /// Number of bodies in the set that rapier still has, right also between a removal and the next step.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let (ball, _) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::ball(0.1));
+    /// let mut immersion = Immersion::new(Fluid::WATER);
+    /// immersion.insert(ball, HydroProperties::from_body(&world.bodies, &world.colliders, ball)?);
+    /// world.remove_body(ball);
+    /// assert_eq!(immersion.len_in(&world.bodies), 0);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    pub fn len_in(&self, bodies: &RigidBodySet) -> usize {
+        let states = self.registry.states().iter().flatten();
+        states.filter(|state| bodies.contains(state.handle)).count()
     }
 
     /// Whether no body is immersed.
@@ -199,6 +247,7 @@ impl Immersion {
     pub fn set_body_enabled(&mut self, handle: RigidBodyHandle, enabled: bool) {
         if let Some(state) = self.registry.get_mut(handle) {
             state.enabled = enabled;
+            state.refused = None;
             self.registry.changed = true;
         }
     }
@@ -317,13 +366,7 @@ impl Immersion {
     /// immersion.after_step(&mut RapierSets::of(&mut world));
     /// ```
     pub fn before_step(&mut self, sets: &mut RapierSets) {
-        let mut admission = admission::Admission {
-            enabled: self.enabled,
-            environment: &self.environment,
-            registry: &mut self.registry,
-            constants: &mut self.constants,
-            warnings: &mut self.warnings,
-        };
+        let mut admission = self.admission();
         admission.admit(sets);
         admission.sweep(sets);
         self.environment.gravity = sets.gravity;
@@ -332,7 +375,43 @@ impl Immersion {
         }
         if self.enabled {
             driver::before_step(&mut self.parts(), sets);
+            self.take_over_changes(sets);
             self.warn_of_flows();
+        }
+    }
+
+    /// Moves the bodies that their users have changed as what they have become, and looks at those that have
+    /// stopped moving.
+    fn take_over_changes(&mut self, sets: &mut RapierSets) {
+        let mut changed = std::mem::take(&mut self.workspace.changed);
+        if !changed.is_empty() {
+            let mut admission = self.admission();
+            for index in changed.drain(..) {
+                admission.take_over(index as usize, sets);
+            }
+            driver::move_newcomers(&mut self.parts(), sets);
+            // Those that were just let in anew are as they should be.
+            self.workspace.changed.clear();
+        }
+        self.workspace.changed = changed;
+        if self.workspace.moved != self.workspace.moved_before {
+            let missed: Vec<_> = self.workspace.missed().collect();
+            let mut admission = self.admission();
+            for index in missed {
+                admission.look_at_missed(index, sets);
+            }
+        }
+    }
+
+    fn admission(&mut self) -> Admission<'_> {
+        Admission {
+            enabled: self.enabled,
+            changes: self.body_changes,
+            environment: &self.environment,
+            registry: &mut self.registry,
+            constants: &mut self.constants,
+            warnings: &mut self.warnings,
+            last: None,
         }
     }
 
@@ -396,6 +475,106 @@ impl Immersion {
         let state = self.registry.get(handle)?;
         let body = bodies.get(handle)?;
         readout::forces(state, &self.constants, &self.environment, body)
+    }
+
+    /// The mass, center of mass and inertia of a body itself, without any fluid, as its user means them; `None`
+    /// if it is not in the fluid (yet: a body enters with the first step after its insertion). A change is in
+    /// them after the next step. Rapier's own `body.mass()` is what the solver uses meanwhile: see
+    /// [`Immersion`].
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let (ball, _) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::ball(0.1).mass(2.0));
+    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, ball)?;
+    /// let mut immersion = Immersion::new(Fluid::WATER);
+    /// immersion.insert(ball, hydro);
+    /// immersion.step(&mut world);
+    /// world.bodies[ball].set_additional_mass(0.5, true); // ballast
+    /// immersion.step(&mut world);
+    /// assert!((immersion.mass_of(ball).unwrap().mass - 2.5).abs() < 1e-6);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    pub fn mass_of(&self, handle: RigidBodyHandle) -> Option<DryMass> {
+        Some(self.registry.get(handle)?.saved.as_ref()?.dry)
+    }
+
+    /// The 6×6 mass 𝕄 of a body with the fluid that it drags along: `𝕄 (v, ω)` is the momentum, N·s, and
+    /// angular momentum, N·m·s, about the center of mass that it takes to move body and fluid at v, m/s, and
+    /// ω, rad/s. Axes of the body's frame. `None` if the body is not in the fluid (yet).
+    pub fn mass_matrix_of(&self, handle: RigidBodyHandle) -> Option<Matrix6<f64>> {
+        let state = self.registry.get(handle)?;
+        state.saved.as_ref()?;
+        Some(self.constants.get(state.constants)?.mass_matrix())
+    }
+
+    /// Pushes a body at its center of mass with an impulse in N·s, world axes, that moves the fluid around it,
+    /// too: its velocities change at once by `𝕄⁻¹ (J, 0)`, 𝕄 being [`Immersion::mass_matrix_of`]. Rapier's own
+    /// `apply_impulse` pushes a body as if there were no fluid, by J/m: a plate that is pushed broadside on in
+    /// water then gets many times the velocity that the impulse is good for.
+    ///
+    /// For a wanted change of velocity Δv the impulse is `𝕄 (Δv, 0)`, or `m·Δv` with m =
+    /// [`DryMass::mass`] plus the added mass along Δv. Locked axes keep their velocity. A body that is not in
+    /// the fluid gets rapier's impulse. Wakes the body.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let (ball, _) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::ball(0.1).density(997.0));
+    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, ball)?;
+    /// let mut immersion = Immersion::new(Fluid::WATER);
+    /// immersion.insert(ball, hydro);
+    /// immersion.step(&mut world);
+    ///
+    /// let before = world.bodies[ball].linvel();
+    /// let impulse = Vector::X * immersion.mass_of(ball).unwrap().mass as f32;
+    /// immersion.apply_impulse(&mut world.bodies, ball, impulse);
+    /// // A ball drags half of the water that it displaces along: m·(1 m/s) makes two thirds of 1 m/s.
+    /// let change = world.bodies[ball].linvel() - before;
+    /// assert!((change.x - 2.0 / 3.0).abs() < 1e-3);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    pub fn apply_impulse(
+        &mut self,
+        bodies: &mut RigidBodySet,
+        handle: RigidBodyHandle,
+        impulse: Vector,
+    ) {
+        if let Some(body) = bodies.get(handle) {
+            let center = body.center_of_mass();
+            self.apply_impulse_at_point(bodies, handle, impulse, center);
+        }
+    }
+
+    /// The same at a point, m, world axes: velocities change by `𝕄⁻¹ (J, r × J)`, r being the lever from the
+    /// center of mass.
+    pub fn apply_impulse_at_point(
+        &mut self,
+        bodies: &mut RigidBodySet,
+        handle: RigidBodyHandle,
+        impulse: Vector,
+        point: Vector,
+    ) {
+        let Some(body) = bodies.get_mut(handle) else {
+            return;
+        };
+        let state = self.registry.get(handle);
+        let immersed = state.filter(|state| state.saved.is_some() && body.is_dynamic());
+        let Some(shared) = immersed.and_then(|state| self.constants.get(state.constants)) else {
+            body.apply_impulse_at_point(impulse, point, true);
+            return;
+        };
+        let lever = point - body.center_of_mass();
+        if let Some((linear, angular)) = impulse::velocity_change(shared, body, impulse, lever) {
+            body.set_linvel(body.linvel() + linear, true);
+            body.set_angvel(body.angvel() + angular, true);
+            // One that slept is not listed as active before rapier's next step.
+            self.registry.newcomers.push(handle);
+        }
     }
 
     /// Multiplies the forces of a body's law, from the next step on (default 1): the control parameters c̃

@@ -4,17 +4,21 @@
 //! Immersion (façade) ──► registry ──► body_state        which bodies, and what is kept of each
 //!     │                  shared_constants               what equal bodies share
 //!     │                  environment, control           the fluid; factors on forces
-//!     ├──► admission ──► saved_properties               bodies enter and leave the fluid
-//!     ├──► readout                                      forces on one body
+//!     ├──► admission ──► saved_properties, body_look    bodies enter and leave the fluid
+//!     ├──► body_changes                                 what users change of a body in the fluid
+//!     ├──► readout, impulse                             forces on one body; pushes at body and fluid
 //!     ├──► rapier_sets, warning, snapshot               what users hand in, are told, and may save
 //!     └──► step::driver                                 prepare → sample → integrate → write back
 //! ```
 
 mod admission;
+mod body_changes;
+mod body_look;
 mod body_state;
 mod control;
 mod environment;
 mod immersion;
+mod impulse;
 mod principal_mass;
 mod rapier_sets;
 mod readout;
@@ -26,6 +30,7 @@ mod snapshot;
 mod step;
 mod warning;
 
+pub use body_look::BodyChanges;
 pub use control::OnContact;
 pub use immersion::Immersion;
 pub use rapier_sets::RapierSets;

@@ -31,6 +31,13 @@ pub(super) struct Registry {
     /// Whether bodies may have to enter or leave the fluid.
     #[cfg_attr(feature = "serde-serialize", serde(skip, default = "yes"))]
     pub changed: bool,
+    /// Indices of bodies that should be moved and cannot be now: not dynamic, disabled, or refused. Each
+    /// step looks at them.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub waiting: Vec<u32>,
+    /// Number of bodies in rapier's set in the last step.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub rapier_bodies: usize,
     /// Bodies that rapier may not list as active yet.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub newcomers: Vec<RigidBodyHandle>,
@@ -127,6 +134,8 @@ impl Registry {
             state.description = description;
             state.constants = NONE;
             state.outdated = true;
+            state.described_anew = true;
+            state.left = None;
             return;
         }
         let rapier_index = handle.into_raw_parts().0 as usize;
@@ -148,8 +157,14 @@ impl Registry {
             enabled: true,
             control: BodyControl::default(),
             saved: None,
+            left: None,
             constants: NONE,
             outdated: false,
+            described_anew: false,
+            waits: false,
+            disabled: false,
+            enabling: false,
+            refused: None,
             warned: Warned::default(),
             flight: FlightState::default(),
         });
@@ -164,14 +179,34 @@ impl Registry {
     }
 
     /// Forgets the body at an index, of which rapier has none any more.
-    pub fn forget(&mut self, index: usize) {
-        if let Some(state) = self.bodies[index].take() {
-            let lookup = &mut self.lookup[state.handle.into_raw_parts().0 as usize];
-            if *lookup == index as u32 {
-                *lookup = NONE;
-                self.free.push(index as u32);
+    pub fn forget(&mut self, index: usize) -> Option<BodyState> {
+        let state = self.bodies.get_mut(index)?.take()?;
+        let lookup = &mut self.lookup[state.handle.into_raw_parts().0 as usize];
+        if *lookup == index as u32 {
+            *lookup = NONE;
+            self.free.push(index as u32);
+        }
+        Some(state)
+    }
+
+    /// Puts a body on the list of those that cannot be moved now.
+    pub fn wait(&mut self, index: usize) {
+        if let Some(state) = self.at_mut(index)
+            && !std::mem::replace(&mut state.waits, true)
+        {
+            self.waiting.push(index as u32);
+        }
+    }
+
+    /// Takes all bodies off that list.
+    pub fn take_waiting(&mut self) -> Vec<u32> {
+        let waiting = std::mem::take(&mut self.waiting);
+        for index in &waiting {
+            if let Some(state) = self.at_mut(*index as usize) {
+                state.waits = false;
             }
         }
+        waiting
     }
 
     /// The index of a body.
@@ -225,12 +260,15 @@ impl Registry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::coupling::body_look::KeptCollider;
     use crate::coupling::saved_properties::SavedProperties;
 
     /// What the documentation of `Immersion` says of memory.
     #[test]
     fn bytes_per_body() {
-        let kept = size_of::<BodyState>() + size_of::<SavedProperties>() + 64;
-        assert!(kept <= 570, "{kept}");
+        let collider = size_of::<KeptCollider>();
+        // With what the allocator adds to two boxes.
+        let kept = size_of::<BodyState>() + size_of::<SavedProperties>() + collider + 32;
+        assert!(kept <= 820, "{kept}");
     }
 }

@@ -160,10 +160,10 @@ pub(super) struct SharedConstants {
     pub heavy_fluid: bool,
     /// Inverse of the 6×6 mass of body and fluid about the center of mass, body axes.
     pub inverse_mass: Matrix6<f64>,
-    /// What rapier is given, but for the mass.
-    wet_properties: MassProperties,
     /// 𝕄₁₁ by its principal axes.
     pub principal_mass: PrincipalMass,
+    /// What rapier is given while nothing touches the body.
+    free: MassProperties,
     /// Whether a push at the center of mass turns the body (A₁₂ ≠ 0).
     pub coupled: bool,
 }
@@ -180,11 +180,7 @@ impl SharedConstants {
         let constants = BodyConstants::new(body, dry, fluid)?;
         let (mass, length) = (constants.mass, constants.length);
         let arm = constants.axes.inverse() * constants.buoyancy_arm / length;
-        let mut whole = constants.added_mass.to_matrix6();
-        let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
-        linear += Matrix3::from_diagonal_element(dry.mass);
-        let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
-        angular += dry.inertia;
+        let whole = mass_matrix(&constants);
         let principal_mass = PrincipalMass::of(&whole.fixed_view::<3, 3>(0, 0).into_owned());
         let inverse_mass = whole.try_inverse().ok_or(Error::UnphysicalAddedMass)?;
         let coupling = constants.added_mass.coupling.norm();
@@ -232,13 +228,8 @@ impl SharedConstants {
         if !step.is_finite() {
             return Err(Error::BeyondSinglePrecision { mass, length });
         }
-        let wet = DryMass {
-            mass: dry.mass,
-            center: dry.center,
-            inertia: dry.inertia + constants.added_mass.angular,
-        };
         Ok(Self {
-            wet_properties: wet.to_mass_properties(),
+            free: wet(&constants, dry.mass).to_mass_properties(),
             description,
             body: body.clone(),
             step,
@@ -253,20 +244,22 @@ impl SharedConstants {
         })
     }
 
+    /// The 6×6 mass of body and fluid about the center of mass, body axes.
+    pub fn mass_matrix(&self) -> Matrix6<f64> {
+        mass_matrix(&self.constants)
+    }
+
     /// What rapier is given: the scalar mass it can use, and I + ρA₂₂.
     pub fn wet(&self, mass: f64) -> DryMass {
-        let dry = &self.constants.dry;
-        DryMass {
-            mass,
-            center: dry.center,
-            inertia: dry.inertia + self.constants.added_mass.angular,
-        }
+        wet(&self.constants, mass)
     }
 
     /// The same as rapier's mass properties.
     pub fn rapier_properties(&self, mass: f64) -> MassProperties {
-        let mut properties = self.wet_properties;
-        properties.inv_mass = if mass == 0.0 { 0.0 } else { 1.0 / mass as f32 };
+        let mut properties = self.free;
+        if mass != self.constants.dry.mass {
+            properties.inv_mass = if mass == 0.0 { 0.0 } else { 1.0 / mass as f32 };
+        }
         properties
     }
 
@@ -293,6 +286,24 @@ impl SharedConstants {
     fn is(&self, description: u32, body: &ImmersedBody, dry: &DryMass) -> bool {
         self.description == description && self.constants.dry == *dry && self.body == *body
     }
+}
+
+fn wet(constants: &BodyConstants, mass: f64) -> DryMass {
+    let dry = &constants.dry;
+    DryMass {
+        mass,
+        center: dry.center,
+        inertia: dry.inertia + constants.added_mass.angular,
+    }
+}
+
+fn mass_matrix(constants: &BodyConstants) -> Matrix6<f64> {
+    let mut whole = constants.added_mass.to_matrix6();
+    let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
+    linear += Matrix3::from_diagonal_element(constants.dry.mass);
+    let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
+    angular += constants.dry.inertia;
+    whole
 }
 
 impl Content for SharedConstants {

@@ -1,6 +1,7 @@
 //! Snapshots of an immersion: what is written, and what is refused when it is read.
 
 use super::admission::renew_constants;
+use super::body_look::BodyChanges;
 use super::body_state::{BodyState, FlightState};
 use super::control::SeriesTable;
 use super::environment::Environment;
@@ -18,13 +19,14 @@ use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Version of what is written. Others are refused.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// What is written, in this order.
 #[derive(Serialize)]
 struct Written<'a> {
     version: u32,
     integrator: &'a Integrator,
+    body_changes: BodyChanges,
     enabled: bool,
     environment: &'a Environment,
     registry: &'a Registry,
@@ -37,6 +39,7 @@ struct Written<'a> {
 struct Read {
     version: u32,
     integrator: Integrator,
+    body_changes: BodyChanges,
     enabled: bool,
     environment: Environment,
     registry: Registry,
@@ -53,6 +56,7 @@ impl Serialize for Immersion {
         let written = Written {
             version: VERSION,
             integrator: &self.integrator,
+            body_changes: self.body_changes,
             enabled: self.enabled,
             environment: &self.environment,
             registry: &self.registry,
@@ -93,6 +97,7 @@ impl Read {
         renew_constants(&mut registry, &mut constants, &self.environment)?;
         Ok(Immersion {
             integrator: self.integrator,
+            body_changes: self.body_changes,
             enabled: self.enabled,
             environment: self.environment,
             registry,
@@ -135,6 +140,9 @@ impl BodyState {
         if let Some(saved) = &self.saved {
             saved.check()?;
             Error::check_positive("solver mass", self.flight.solver_mass.into())?;
+        }
+        if let Some(left) = &self.left {
+            left.check()?;
         }
         self.flight.check()
     }

@@ -45,6 +45,26 @@ pub enum Warning {
         /// Their mass with the borders at the same density, kg.
         whole_mass: f64,
     },
+    /// The user has changed the shape of the body, but its description is not what
+    /// [`HydroProperties::from_body`](crate::HydroProperties::from_body) makes of the shape that it had: it
+    /// is kept as the user gave it, and only the mass is taken over. Insert a description of the new shape.
+    ShapeKept {
+        /// The body.
+        body: RigidBodyHandle,
+    },
+    /// The user has changed what the body is made of, and
+    /// [`BodyChanges::Ignore`](crate::BodyChanges::Ignore) has it go on as before.
+    ChangeIgnored {
+        /// The body.
+        body: RigidBodyHandle,
+    },
+    /// The body is in the fluid of another [`Immersion`](crate::Immersion), or was in one that was dropped
+    /// without giving it back ([`Immersion::remove`](crate::Immersion::remove)): its mass properties are not
+    /// its own. This immersion leaves it alone until the other one has given it back.
+    ImmersedTwice {
+        /// The body.
+        body: RigidBodyHandle,
+    },
     /// The flow at the body was no number: the fluid around it stayed as it was.
     FlowNotFinite {
         /// The body.
@@ -74,6 +94,20 @@ impl std::fmt::Display for Warning {
                     "the flow at {body:?} is no number; the fluid stays as it was there"
                 )
             }
+            Self::ShapeKept { body } => write!(
+                f,
+                "the shape of {body:?} has changed, but its description is the user's own and is kept"
+            ),
+            Self::ChangeIgnored { body } => {
+                write!(
+                    f,
+                    "a change of {body:?} was seen and is ignored while it is immersed"
+                )
+            }
+            Self::ImmersedTwice { body } => write!(
+                f,
+                "{body:?} is not immersed: another immersion holds it, or did not give it back"
+            ),
             Self::UnfinishedStep => write!(
                 f,
                 "before_step was called twice without after_step in between"

@@ -58,6 +58,49 @@ fn removal_in_flight_and_reuse_of_handles() {
     }
 }
 
+/// The number of bodies is right in the next step after rapier has lost some, awake or asleep, and with the
+/// set of bodies at hand at once.
+#[test]
+fn the_number_of_bodies_is_right() {
+    let mut world = PhysicsWorld::new();
+    let floor = ColliderBuilder::cuboid(50.0, 0.5, 50.0).translation(Vector::Y * -0.5);
+    world.insert(RigidBodyBuilder::fixed(), floor);
+    let mut immersion = Immersion::new(Fluid::AIR);
+    let mut bodies = Vec::new();
+    for i in 0..20 {
+        // Half of them lie on the floor.
+        let height = if i % 2 == 0 { 0.05 } else { 1000.0 };
+        let body = leaf(&mut world, height);
+        world.bodies[body].set_translation(Vector::new(i as Real, height, 0.0), true);
+        bodies.push(body);
+    }
+    let shape = hydro(&world, bodies[0]);
+    immersion.insert_all(bodies.iter().copied(), shape.clone());
+    (0..600).for_each(|_| immersion.step(&mut world));
+    let sleeping = |handle: &&RigidBodyHandle| world.bodies[**handle].is_sleeping();
+    assert!(bodies.iter().filter(sleeping).count() >= 5);
+    let mut left = bodies.len();
+    for pair in bodies.chunks(4) {
+        for handle in pair {
+            world.remove_body(*handle);
+        }
+        left -= pair.len();
+        assert_eq!(immersion.len_in(&world.bodies), left);
+        immersion.step(&mut world);
+        assert_eq!(immersion.len(), left);
+        assert!(!immersion.contains(pair[0]));
+    }
+    // One goes and one comes in the same step.
+    let (one, other) = (leaf(&mut world, 1000.0), leaf(&mut world, 1001.0));
+    immersion.insert_all([one, other], shape.clone());
+    immersion.step(&mut world);
+    world.remove_body(one);
+    let third = leaf(&mut world, 1002.0);
+    immersion.insert(third, shape);
+    immersion.step(&mut world);
+    assert_eq!((immersion.len(), immersion.len_in(&world.bodies)), (2, 2));
+}
+
 /// Removing from the fluid gives back what the body had; one body can be switched off alone.
 #[test]
 fn leaving_the_fluid() {

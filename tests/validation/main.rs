@@ -1,6 +1,7 @@
 //! What must hold: one physical law or promise per module.
 
 mod changed;
+mod changed_body;
 mod colliders;
 mod control;
 mod determinism;

@@ -97,6 +97,44 @@ fn a_flow_that_is_no_number() {
     assert!(world.bodies[handles[1]].linvel().x > 0.1);
 }
 
+/// A body that is inserted in two immersions is in the first that steps; the second says so once, and leaves
+/// it alone to the bit until the first has given it back.
+#[test]
+fn one_body_in_two_immersions() {
+    let run = |immersions: usize| {
+        let mut world = PhysicsWorld::new();
+        let (body, hydro) = leaf(&mut world);
+        let mut all = vec![Immersion::new(Fluid::AIR), Immersion::new(Fluid::WATER)];
+        all.truncate(immersions);
+        all.iter_mut().for_each(|i| i.insert(body, hydro.clone()));
+        let step = |all: &mut [Immersion], world: &mut PhysicsWorld| {
+            for immersion in all.iter_mut() {
+                immersion.before_step(&mut RapierSets::of(world));
+            }
+            world.step();
+            for immersion in all.iter_mut() {
+                immersion.after_step(&mut RapierSets::of(world));
+            }
+        };
+        (0..60).for_each(|_| step(&mut all, &mut world));
+        let velocity = world.bodies[body].linvel();
+        (world, all, body, velocity)
+    };
+    let (.., alone) = run(1);
+    let (mut world, mut all, body, both) = run(2);
+    assert_eq!(both, alone);
+    assert_eq!(all[0].warnings(), []);
+    assert_eq!(all[1].warnings(), [Warning::ImmersedTwice { body }]);
+    assert!(all[1].mass_of(body).is_none());
+
+    all[0].remove(body, &mut world.bodies, &mut world.colliders);
+    all[1].step(&mut world);
+    let mass = all[1].mass_of(body).expect("in the fluid of the second");
+    let own = 300.0 * 0.073 * 0.000_3 * 0.042;
+    assert!((mass.mass / own - 1.0).abs() < 1e-5, "{}", mass.mass);
+    assert_eq!(all[1].warnings().len(), 1);
+}
+
 /// Rapier's invalid handle has the index 2³² − 1: no table is made that long.
 #[test]
 fn the_invalid_handle_is_passed_over() {

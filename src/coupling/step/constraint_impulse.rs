@@ -30,7 +30,7 @@
 //!
 //! Only linear impulses are treated so; the same for moments pumps energy into light bodies at levers.
 
-use super::workspace::HeldStart;
+use super::stage_data::HeldStart;
 use super::{contact_mass, held_motion, locked_axes};
 use crate::coupling::body_state::FlightState;
 use crate::coupling::shared_constants::SharedConstants;
@@ -101,15 +101,22 @@ fn turned_by(v: Vector, turn: Vector) -> Vector {
     Rotation::from_scaled_axis(turn) * v
 }
 
+/// What the joints of a body did in a step: impulse, N·s, and change of the angular velocity, rad/s; world axes.
+#[derive(Clone, Copy)]
+pub(super) struct Learnt {
+    pub impulse: Vector,
+    pub turn: Vector,
+}
+
 /// Learns from rapier's step what the joints of a body did, and sets its velocity right where they have
-/// opened. Returns their impulse, N·s, world axes.
+/// opened.
 pub(super) fn learn(
     shared: &SharedConstants,
     body: &mut RigidBody,
     flight: &mut FlightState,
     start: &HeldStart,
     dt: Real,
-) -> Vector {
+) -> Learnt {
     let locked = locked_axes::linear(start.locks);
     let undamped = body.linvel() * (1.0 + dt * body.linear_damping());
     let mut surprise = undamped - start.linear - start.expected_change;
@@ -148,5 +155,8 @@ pub(super) fn learn(
         flight.constraint_impulse = Vector::ZERO;
         flight.constraint_turn = Vector::ZERO;
     }
-    impulse
+    Learnt {
+        impulse,
+        turn: flight.constraint_turn,
+    }
 }

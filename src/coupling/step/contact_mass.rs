@@ -5,7 +5,6 @@
 //! normal, `m_s = 1/(n·𝕄⁻¹n)`, so that the solver finds the right impulse; after the step the
 //! velocity change that this impulse λ really causes, `𝕄⁻¹λ`, replaces `λ/m_s`.
 
-use super::workspace::CloseBodies;
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::SharedConstants;
@@ -15,6 +14,21 @@ use rapier3d::geometry::{ColliderHandle, ContactPair, NarrowPhase};
 use rapier3d::math::{Real, Vector};
 use rapier3d::na::{Vector3, Vector6};
 use rapier3d::parry::query::contact;
+
+/// Which bodies are close to something.
+#[derive(Clone, Default)]
+pub(in crate::coupling) struct CloseBodies {
+    /// By index of the body's state, unless the world is `crowded`.
+    pub marked: Vec<bool>,
+    pub crowded: bool,
+}
+
+impl CloseBodies {
+    /// Whether the body's pairs have to be asked for.
+    pub fn contains(&self, state: usize) -> bool {
+        self.crowded || self.marked.get(state).is_some_and(|marked| *marked)
+    }
+}
 
 /// Marks the bodies that meet others where these are few, so that the rest need not be asked for
 /// their pairs one by one.

@@ -3,8 +3,9 @@
 use super::integrate::integrate;
 use super::prepare::{self, Preparation};
 use super::sample_fluid::sample_fluid;
+use super::stage_data::StepContext;
 use super::substep_matching::SubstepScheme;
-use super::workspace::{Batched, StepContext, Workspace};
+use super::workspace::{Batched, Workspace};
 use super::write_back;
 use super::{contact_mass, energy_budget};
 use crate::coupling::control::SeriesTable;
@@ -25,27 +26,19 @@ pub(in crate::coupling) struct StepParts<'a> {
     pub workspace: &'a mut Workspace,
 }
 
-/// Sets each body's force, torque and velocity so that rapier's step moves it as the fluid would.
+/// Sets each body's force, torque and velocity so that rapier's step moves it as the fluid would. Bodies that
+/// their users have changed are left for [`move_newcomers`].
 pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierSets) {
-    let parameters = sets.integration_parameters;
-    // A negative or NaN time step moves nothing, in rapier as here.
-    if parameters.dt.is_nan() || parameters.dt <= 0.0 {
+    let Some(context) = context(parts.integrator, sets) else {
         return;
-    }
-    let context = StepContext {
-        dt: parameters.dt,
-        substeps: parameters.num_solver_iterations.max(1),
-        scheme: SubstepScheme::new(parameters.dt, parameters.num_solver_iterations),
-        gravity: sets.gravity,
-        joints: sets.have_joints(),
-        integrator: parts.integrator,
     };
     parts.workspace.forget_bodies();
     if context.joints {
-        parts.workspace.systems.find(sets, parts.registry);
+        parts.workspace.jointed.systems.find(sets, parts.registry);
     } else {
-        parts.workspace.systems.clear();
+        parts.workspace.jointed.systems.clear();
     }
+    parts.workspace.begin_marks(parts.registry.states().len());
     let heavy_fluid = parts.constants.heavy_fluid;
     contact_mass::find_close(
         parts.registry,
@@ -75,6 +68,47 @@ pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierS
     parts.registry.newcomers = newcomers;
 }
 
+/// Moves bodies that have entered the fluid after [`before_step`] of the same step.
+pub(in crate::coupling) fn move_newcomers(parts: &mut StepParts, sets: &mut RapierSets) {
+    let Some(context) = context(parts.integrator, sets) else {
+        return;
+    };
+    if context.joints && !parts.registry.newcomers.is_empty() {
+        parts
+            .workspace
+            .jointed
+            .systems
+            .find_others(sets, parts.registry);
+    }
+    for handle in std::mem::take(&mut parts.registry.newcomers) {
+        let index = parts.registry.index(handle);
+        let moved = index.and_then(|index| parts.workspace.moved.get(index));
+        if moved != Some(&1) {
+            move_body(handle, parts, sets, &context);
+        }
+    }
+    for route in Route::all() {
+        run_stages(route, parts, sets, &context);
+    }
+}
+
+/// How a step is taken; `None` if it moves nothing.
+fn context(integrator: Integrator, sets: &RapierSets) -> Option<StepContext> {
+    let parameters = sets.integration_parameters;
+    // A negative or NaN time step moves nothing, in rapier as here.
+    if parameters.dt.is_nan() || parameters.dt <= 0.0 {
+        return None;
+    }
+    Some(StepContext {
+        dt: parameters.dt,
+        substeps: parameters.num_solver_iterations.max(1),
+        scheme: SubstepScheme::new(parameters.dt, parameters.num_solver_iterations),
+        gravity: sets.gravity,
+        joints: sets.have_joints(),
+        integrator,
+    })
+}
+
 /// Prepares a body, and moves its batch if that is full.
 fn move_body(
     handle: RigidBodyHandle,
@@ -89,8 +123,10 @@ fn move_body(
         close: &parts.workspace.close,
         context,
         registry: parts.registry,
+        moved: &mut parts.workspace.moved,
+        changed: &mut parts.workspace.changed,
         batches: &mut parts.workspace.batches,
-        systems: &mut parts.workspace.systems,
+        systems: &mut parts.workspace.jointed.systems,
     };
     if let Some(route) = prepare::prepare(handle, sets, &mut preparation)
         && parts.workspace.batches[route.index()].is_full()
@@ -128,7 +164,7 @@ fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, contex
         registry: parts.registry,
         context,
         saved_forces: &mut workspace.saved_forces,
-        held: &mut workspace.held,
+        held: &mut workspace.jointed.starts,
         moved_by_mean: &mut workspace.moved_by_mean,
     };
     write_back::write_back(batch, sets, &mut to);
@@ -150,6 +186,11 @@ pub(in crate::coupling) fn after_step(parts: &mut StepParts, sets: &mut RapierSe
         let (workspace, registry) = (&mut *parts.workspace, &mut *parts.registry);
         write_back::finish(i, workspace, parts.constants, registry, sets);
     }
-    energy_budget::keep(parts.workspace, parts.constants, parts.registry, sets);
+    energy_budget::keep(
+        &mut parts.workspace.jointed,
+        parts.constants,
+        parts.registry,
+        sets,
+    );
     parts.workspace.forget_bodies();
 }

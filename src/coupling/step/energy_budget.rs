@@ -29,9 +29,10 @@
 //! turns damp nothing; up to a quarter where a spring swings, whose energy a step of a tenth of its period
 //! changes by so much within the swing.
 
+use super::constraint_impulse::Learnt;
 use super::held_motion;
-use super::jointed_systems::{SystemKind, spring_energy};
-use super::workspace::{HeldEnd, HeldStart, Workspace};
+use super::jointed_systems::{JointedSystems, SystemKind, spring_energy};
+use super::stage_data::{HeldEnd, HeldStart};
 use crate::coupling::body_state::BodyState;
 use crate::coupling::rapier_sets::{RapierSets, scaled};
 use crate::coupling::registry::Registry;
@@ -47,6 +48,23 @@ const RESERVE: Real = 2e-4;
 const SPRUNG_RESERVE: Real = 0.25;
 /// Relative excess that is left alone: rounding.
 const ROUNDING: Real = 1e-6;
+
+/// The jointed bodies of a step.
+#[derive(Clone, Default)]
+pub(in crate::coupling) struct JointedBodies {
+    pub starts: Vec<HeldStart>,
+    pub ends: Vec<HeldEnd>,
+    pub systems: JointedSystems,
+    energies: Vec<SystemEnergy>,
+}
+
+impl JointedBodies {
+    /// Forgets what the bodies had before the step.
+    pub fn forget(&mut self) {
+        self.starts.clear();
+        self.ends.clear();
+    }
+}
 
 /// Kinetic energy of body and fluid, J; velocities in plate axes.
 fn kinetic_energy(shared: &SharedConstants, linear: Vector, angular: Vector) -> Real {
@@ -72,15 +90,14 @@ fn energy_at(
     kinetic_energy(shared, back * linear, back * angular)
 }
 
-/// What a jointed body has after the step. `impulse` is that of its joints, `turn` the change of its angular
-/// velocity that they caused; `driven` whether something drives its system.
+/// What a jointed body has after the step, after what its joints `did`; `driven` says whether something drives
+/// its system.
 pub(super) fn measure(
     shared: &SharedConstants,
     body: &RigidBody,
     start: &HeldStart,
     number: u32,
-    impulse: Vector,
-    turn: Vector,
+    did: &Learnt,
     driven: bool,
     dt: Real,
 ) -> HeldEnd {
@@ -100,17 +117,17 @@ pub(super) fn measure(
         energy: energy_at(shared, *body.rotation(), relative, body.angvel()),
         without_joints,
         work: if driven {
-            let moment = held_motion::turned(shared, start.attitude, turn);
-            impulse.dot(mean) + moment.dot(mean_turn)
+            let moment = held_motion::turned(shared, start.attitude, did.turn);
+            did.impulse.dot(mean) + moment.dot(mean_turn)
         } else {
-            -impulse.dot(start.fluid_velocity)
+            -did.impulse.dot(start.fluid_velocity)
         },
     }
 }
 
 /// The sums over a system, J, and the factor by which it is slowed down.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::coupling) struct SystemEnergy {
+struct SystemEnergy {
     energy: Real,
     allowed: Real,
     /// What springs store after the step.
@@ -158,18 +175,17 @@ impl SystemEnergy {
 
 /// Slows the systems down that have more energy than they can have.
 pub(super) fn keep(
-    workspace: &mut Workspace,
+    bodies: &mut JointedBodies,
     constants: &ConstantsTable,
     registry: &mut Registry,
     sets: &mut RapierSets,
 ) {
-    let Workspace {
-        held,
-        held_ends,
+    let JointedBodies {
+        starts: held,
+        ends: held_ends,
         systems,
         energies,
-        ..
-    } = workspace;
+    } = bodies;
     if held_ends.is_empty() {
         return;
     }

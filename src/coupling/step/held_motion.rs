@@ -10,7 +10,7 @@
 //! a few passes, each of which leaves a tenth of the error or less.
 
 use super::locked_axes;
-use super::workspace::{HeldStart, Substeps};
+use super::stage_data::{HeldStart, Substeps};
 use crate::coupling::shared_constants::SharedConstants;
 use crate::math::{to_f64, to_quaternion, to_real};
 use rapier3d::math::{Real, Rotation, Vector};

@@ -2,7 +2,8 @@
 //! Rapier is not needed for it.
 
 use super::lane_group::LaneGroup;
-use super::workspace::{Batched, SeenFlow, StepInput, StepOutput};
+use super::stage_data::{SeenFlow, StepInput, StepOutput};
+use super::workspace::Batched;
 use crate::coupling::shared_constants::{Route, StepConstants};
 use crate::math::{Lanes, MOST_LANES, OnLanes, dispatch};
 use fearless_simd::Simd;

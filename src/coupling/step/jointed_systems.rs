@@ -110,6 +110,12 @@ impl JointedSystems {
     /// Looks at all joints.
     pub fn find(&mut self, sets: &RapierSets, registry: &Registry) {
         self.clear();
+        self.find_others(sets, registry);
+    }
+
+    /// The same when bodies have entered the fluid since; those that are known keep their numbers.
+    pub fn find_others(&mut self, sets: &RapierSets, registry: &Registry) {
+        self.springs.clear();
         self.numbers.resize(registry.states().len(), NONE);
         for (handle, joint) in sets.impulse_joints.iter() {
             if joint.data.is_enabled() {

@@ -1,8 +1,9 @@
 //! One step of the bodies that fit into the machine's registers side by side.
 
 use super::locked_axes;
+use super::stage_data::{Disturbance, SeenFlow, StepInput, StepOutput};
 use super::substep_matching::Target;
-use super::workspace::{Batched, Disturbance, SeenFlow, StepInput, StepOutput};
+use super::workspace::Batched;
 use crate::coupling::body_state::{IntegratorState, NONE};
 use crate::coupling::shared_constants::StepConstants;
 use crate::dynamics::integrate::{Load, Motion, advance, substeps};

@@ -16,7 +16,7 @@
 
 use super::held_motion::replayed;
 use super::locked_axes;
-use super::workspace::{StepContext, StepInput, StepOutput};
+use super::stage_data::{StepContext, StepInput, StepOutput};
 use crate::math::{Row, vector};
 use rapier3d::dynamics::{LockedAxes, RigidBody};
 use rapier3d::math::{Real, Rotation, Vector};

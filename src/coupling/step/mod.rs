@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`driver`] fills the batches and runs the stages; no stage calls another. What passes between them is in
-//! [`workspace`].
+//! [`stage_data`], the memory for it in [`workspace`].
 //!
 //! [`Route`]: super::shared_constants::Route
 
@@ -22,6 +22,7 @@ mod locked_axes;
 mod mean_motion;
 mod prepare;
 mod sample_fluid;
+mod stage_data;
 mod substep_matching;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,9 @@
 //! The first stage: which bodies a step moves, and what it has to know of them.
 
+use super::contact_mass::CloseBodies;
 use super::jointed_systems::JointedSystems;
-use super::workspace::{Batch, CloseBodies, Disturbance, SeenFlow, StepContext, StepInput};
+use super::stage_data::{Disturbance, SeenFlow, StepContext, StepInput};
+use super::workspace::Batch;
 use super::{constraint_impulse, contact_mass, friction};
 use crate::coupling::body_state::{FlightState, IntegratorState, NONE};
 use crate::coupling::control::SeriesTable;
@@ -29,11 +31,15 @@ pub(super) struct Preparation<'a> {
     pub close: &'a CloseBodies,
     pub context: &'a StepContext,
     pub registry: &'a mut Registry,
+    pub moved: &'a mut [u8],
+    pub changed: &'a mut Vec<u32>,
     pub batches: &'a mut [Batch; Route::COUNT],
     pub systems: &'a mut JointedSystems,
 }
 
-/// Puts an awake body into the batch of its route, if it is immersed.
+/// Puts an awake body into the batch of its route, if it is immersed; one that its user has changed is set
+/// aside.
+#[inline(never)]
 pub(super) fn prepare(
     handle: RigidBodyHandle,
     sets: &RapierSets,
@@ -41,7 +47,7 @@ pub(super) fn prepare(
 ) -> Option<Route> {
     let index = to.registry.index(handle)?;
     let body = sets.bodies.get(handle)?;
-    if !body.is_dynamic() || body.is_sleeping() {
+    if !body.is_dynamic() || body.is_sleeping() || !body.is_enabled() {
         return None;
     }
     let joints = if to.context.joints {
@@ -50,7 +56,10 @@ pub(super) fn prepare(
         None
     };
     let state = to.registry.at_mut(index)?;
-    if state.saved.is_none() {
+    let enabling = std::mem::take(&mut state.enabling);
+    let saved = state.saved.as_deref()?;
+    if !enabling && !saved.still_holds(body, sets.colliders) {
+        to.changed.push(index as u32);
         return None;
     }
     let shared = to.constants.get(state.constants)?;
@@ -140,6 +149,9 @@ pub(super) fn prepare(
     let undisturbed =
         continues && [change_linear, change_angular, force, torque] == [Vector::ZERO; 4];
 
+    if let Some(moved) = to.moved.get_mut(index) {
+        *moved = 1;
+    }
     let batch = &mut to.batches[shared.route.index()];
     let disturbance = if undisturbed {
         NONE

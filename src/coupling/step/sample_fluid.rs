@@ -1,7 +1,8 @@
 //! The second stage: the flow that each body of a batch sees, its mean and turbulence on top.
 
+use super::stage_data::{Disturbance, StepContext, StepInput};
 use super::turbulence::{Fluctuate, StepTurbulence};
-use super::workspace::{Batch, Disturbance, StepContext, StepInput};
+use super::workspace::Batch;
 use crate::coupling::body_state::NONE;
 use crate::coupling::environment::Environment;
 use crate::coupling::shared_constants::ConstantsTable;

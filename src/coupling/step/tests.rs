@@ -1,7 +1,7 @@
 //! Tests of the step that need both its inside and the façade.
 
 use super::contact_mass;
-use super::workspace::CloseBodies;
+use super::contact_mass::CloseBodies;
 use crate::body::ImmersedBody;
 use crate::coupling::{Immersion, RapierSets};
 use crate::flow::{GridFlow, Layers, Shear, Vortex};

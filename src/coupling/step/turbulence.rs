@@ -1,6 +1,6 @@
 //! The turbulence that each body of a batch sees.
 
-use super::workspace::StepInput;
+use super::stage_data::StepInput;
 use crate::coupling::body_state::TurbulenceMemory;
 use crate::coupling::environment::Environment;
 use crate::flow::FlowSample;

@@ -2,10 +2,10 @@
 
 use super::held_motion;
 use super::mean_motion::MeanMotion;
-use super::workspace::{
-    Batch, Disturbance, HeldStart, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
-    Workspace,
+use super::stage_data::{
+    Disturbance, HeldStart, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
 };
+use super::workspace::{Batch, Workspace};
 use super::{constraint_impulse, contact_mass, energy_budget, locked_axes};
 use crate::body::from_rapier::inertia;
 use crate::coupling::body_state::{FlightState, NONE};
@@ -148,9 +148,12 @@ fn write_body(
             .is_some_and(|saved| saved.fast_rotation);
     if fast != body.is_fast_rotation_allowed() {
         body.set_allow_fast_rotation(fast);
+        if let Some(saved) = &mut state.saved {
+            saved.fast_written = fast;
+        }
     }
     if input.new_mass
-        && let Some(saved) = &state.saved
+        && let Some(saved) = &mut state.saved
     {
         let mass = input.solver_mass.into();
         saved.set_mass(shared, mass, input.handle, sets.bodies, sets.colliders);
@@ -340,7 +343,7 @@ pub(super) fn finish(
     let Some(shared) = constants.get(state.constants) else {
         return;
     };
-    if let Some(start) = workspace.held.get(saved.held as usize) {
+    if let Some(start) = workspace.jointed.starts.get(saved.held as usize) {
         if start.linked
             && let (linear, angular) = sets.link_velocities(saved.handle)
             && let Some(body) = sets.bodies.get_mut(saved.handle)
@@ -353,14 +356,13 @@ pub(super) fn finish(
         };
         let dt = sets.integration_parameters.dt;
         let flight = &mut state.flight;
-        let impulse = constraint_impulse::learn(shared, body, flight, start, dt);
+        let did = constraint_impulse::learn(shared, body, flight, start, dt);
         // A body that flew the whole step has the energy that was integrated.
-        if !(start.flies && impulse == Vector::ZERO) {
-            let (_, kind) = workspace.systems.system(start.system);
-            let (turn, driven) = (flight.constraint_turn, kind.driven);
+        if !(start.flies && did.impulse == Vector::ZERO) {
+            let (_, kind) = workspace.jointed.systems.system(start.system);
             let end =
-                energy_budget::measure(shared, body, start, saved.held, impulse, turn, driven, dt);
-            workspace.held_ends.push(end);
+                energy_budget::measure(shared, body, start, saved.held, &did, kind.driven, dt);
+            workspace.jointed.ends.push(end);
         }
     }
     if !saved.touching || state.flight.corrected_contacts >= IMPACT {
