@@ -45,8 +45,10 @@ use std::sync::Arc;
 /// * keeps its user forces, gravity scale (which scales the buoyancy too), damping, locked axes and
 ///   joints.
 ///
-/// Joints and locked axes act on the body as rapier holds it; such bodies, multibody links and bodies
-/// with solver iterations of their own get their motion by a force alone, like bodies in contact.
+/// What holds a body (joints of both kinds, locked axes, friction) feels the force of the fluid in full at any
+/// step, and the added mass along the joint's pull from the first step on; a joint that opens leaves nothing
+/// behind. In a fluid at rest no joint, lock or spring gives body and fluid more energy than they had. Links of
+/// multibodies read their velocities at the end of the step (under plain rapier those of one substep before).
 /// Kinematic bodies are left alone until they become dynamic.
 ///
 /// # Changing a body

@@ -2,6 +2,7 @@
 
 mod energy;
 mod energy_scene;
+mod extremes;
 mod friction;
 mod joints;
 mod locked;
