@@ -58,6 +58,28 @@ fn removal_in_flight_and_reuse_of_handles() {
     }
 }
 
+/// A body's switches are its user's: those that the crate sets are given back as they were.
+#[test]
+fn switches_are_given_back() {
+    for (gyroscopic, fast) in [(false, false), (false, true), (true, false), (true, true)] {
+        let mut world = PhysicsWorld::new();
+        let leaf = leaf(&mut world, 100.0);
+        world.bodies[leaf].enable_gyroscopic_forces(gyroscopic);
+        world.bodies[leaf].set_allow_fast_rotation(fast);
+        let shape = hydro(&world, leaf);
+        let mut immersion = Immersion::new(Fluid::AIR);
+        immersion.insert(leaf, shape);
+        immersion.step(&mut world);
+        // In the fluid the crate's own equations have the gyroscopic torque, and no limit.
+        assert!(!world.bodies[leaf].gyroscopic_forces_enabled());
+        assert!(world.bodies[leaf].is_fast_rotation_allowed());
+        immersion.remove(leaf, &mut world.bodies, &mut world.colliders);
+        let body = &world.bodies[leaf];
+        assert_eq!(body.gyroscopic_forces_enabled(), gyroscopic);
+        assert_eq!(body.is_fast_rotation_allowed(), fast);
+    }
+}
+
 /// Removing from the fluid gives back what the body had; one body can be switched off alone.
 #[test]
 fn leaving_the_fluid() {

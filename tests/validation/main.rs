@@ -4,6 +4,7 @@ mod changed;
 mod control;
 mod determinism;
 mod equivalence;
+mod exact;
 mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod fuzz;
