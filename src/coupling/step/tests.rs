@@ -142,3 +142,32 @@ fn bodies_that_are_passed_over_touch_nothing() {
         );
     }
 }
+
+/// A body that enters another fluid while it touches something meets it anew: what its contacts do is
+/// corrected from the first step on.
+#[test]
+fn contacts_are_corrected_anew_in_another_fluid() {
+    let mut world = PhysicsWorld::new();
+    world.insert(
+        RigidBodyBuilder::fixed(),
+        ColliderBuilder::cuboid(1.0, 0.1, 1.0),
+    );
+    let (plate, _) = world.insert(
+        RigidBodyBuilder::dynamic().translation(Vector::Y * 0.106),
+        ColliderBuilder::cuboid(0.1, 0.005, 0.1).density(2700.0),
+    );
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, plate).unwrap();
+    let mut immersion = Immersion::new(Fluid::WATER);
+    immersion.insert(plate, hydro);
+    let corrected = |immersion: &Immersion| {
+        let state = immersion.registry.states()[0].as_ref().unwrap();
+        state.flight.corrected_contacts
+    };
+    for _ in 0..20 {
+        immersion.step(&mut world);
+    }
+    assert_eq!(corrected(&immersion), 3);
+    immersion.set_fluid(Fluid::AIR);
+    immersion.before_step(&mut RapierSets::of(&mut world));
+    assert_eq!(corrected(&immersion), 0);
+}
