@@ -58,6 +58,56 @@ fn removal_in_flight_and_reuse_of_handles() {
     }
 }
 
+/// Additional mass, given as a number or as mass properties, is given back with the rest, and a body that sleeps
+/// is not woken by it.
+#[test]
+fn additional_mass_is_given_back() {
+    let extra = MassProperties::new(Vector::X * 0.01, 2e-3, Vector::new(1e-6, 2e-6, 3e-6));
+    for (builder, mass) in [
+        (RigidBodyBuilder::dynamic().additional_mass(0.5), 0.5),
+        (
+            RigidBodyBuilder::dynamic().additional_mass_properties(extra),
+            2e-3,
+        ),
+    ] {
+        let mut world = PhysicsWorld::new();
+        let collider = ColliderBuilder::cuboid(0.04, 0.02, 0.03).density(300.0);
+        let (body, _) = world.insert(builder, collider);
+        world.step();
+        let before = world.bodies[body].mass_properties().local_mprops;
+        let own = 300.0 * 8.0 * 0.04 * 0.02 * 0.03;
+        assert!((before.mass() / (own + mass) - 1.0).abs() < 1e-5);
+        let shape = hydro(&world, body);
+        let mut immersion = Immersion::new(Fluid::WATER);
+        immersion.insert(body, shape);
+        immersion.step(&mut world);
+        assert_ne!(world.bodies[body].mass_properties().local_mprops, before);
+        world.bodies[body].sleep();
+        immersion.remove(body, &mut world.bodies, &mut world.colliders);
+        let body = &world.bodies[body];
+        assert!(body.is_sleeping());
+        let after = body.mass_properties().local_mprops;
+        assert!((after.mass() / before.mass() - 1.0).abs() < 1e-6);
+        assert!((after.local_com - before.local_com).length() < 1e-7);
+    }
+}
+
+/// A body that is switched off or on leaves or enters with the very next step.
+#[test]
+fn switching_a_body_takes_effect_at_once() {
+    let mut world = PhysicsWorld::new();
+    let leaf = leaf(&mut world, 100.0);
+    let shape = hydro(&world, leaf);
+    let mut immersion = Immersion::new(Fluid::AIR);
+    immersion.insert(leaf, shape);
+    for enabled in [true, false, true, false] {
+        immersion.set_body_enabled(leaf, enabled);
+        immersion.step(&mut world);
+        assert_eq!(immersion.forces(&world.bodies, leaf).is_some(), enabled);
+        assert_eq!(world.bodies[leaf].gyroscopic_forces_enabled(), !enabled);
+    }
+}
+
 /// A body's switches are its user's: those that the crate sets are given back as they were.
 #[test]
 fn switches_are_given_back() {

@@ -276,6 +276,17 @@ mod tests {
         }
     }
 
+    /// A world that is told to take no substep at all gets the numbers of one.
+    #[test]
+    fn no_substep_is_one() {
+        let of = |substeps| {
+            let s = SubstepScheme::new(0.01, substeps);
+            (s.gain, s.kappa, s.mu, s.lambda, s.cayley, s.split)
+        };
+        assert_eq!(of(0), of(1));
+        assert!(of(0).0.is_finite());
+    }
+
     /// Rotation vectors of small turns, whichever sign the quaternion has.
     #[test]
     fn rotation_vector_of_small_turns() {

@@ -3,6 +3,7 @@
 
 use super::sphere;
 use crate::support::solid_box;
+use rapier3d_immersed::geometry::Ellipsoid;
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::{Fluid, FreeBody, PhysicalLaw, ViscousLaw};
 
@@ -91,4 +92,33 @@ fn friction_of_a_spinning_plate() {
     // A quarter of the spin is lost, at second order in a step that loses 1e-4 of it.
     assert!(exact < 0.8 * start, "{exact}");
     assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
+}
+
+/// A body that is as thick as wide has the drag curve of Clift & Gauvin (1971) without Stokes's term on its
+/// shadow, `3.6 Re^−0.313 + C/(1 + 42500 Re^−1.16)`, Re on the diameter of its volume, and the creeping
+/// resistance of its proxy; C is 0.42 for a sphere and 1.05 for a box with its sharp edges.
+#[test]
+fn drag_of_bluff_bodies() {
+    let fluid = Fluid::new(1000.0, 1e-5).unwrap();
+    let viscosity = f64::from(fluid.kinematic_viscosity());
+    let cube = solid_box([0.1; 3], 300.0, ViscousLaw::default());
+    for ((body, mass), plateau) in [(sphere(0.05, 300.0), 0.42), (cube, 1.05)] {
+        let Ellipsoid { semi_axes } = body.hydro.proxy;
+        for u in [Vector3::new(2.0, -1.0, 0.5), Vector3::z() * -0.03] {
+            let speed = u.norm();
+            let re: f64 = speed * 2.0 * semi_axes.product().cbrt() / viscosity;
+            let coefficient = 3.6 * re.powf(-0.313) + plateau / (1.0 + 42500.0 * re.powf(-1.16));
+            let shadow = body.hydro.proxy.projected_area(u / speed);
+            let creeping = body.hydro.proxy.stokes_resistance().linear;
+            let creeping = creeping.component_mul(&u) * f64::from(fluid.dynamic_viscosity());
+            let exact = u * (-0.5 * 1000.0 * shadow * coefficient * speed) - creeping;
+            let mut body = FreeBody::new(&body, &mass, &fluid).unwrap();
+            body.set_velocity(u, Vector3::zeros());
+            let found = body.forces(Vector3::zeros()).drag.force;
+            let found = Vector3::new(found.x, found.y, found.z).map(f64::from);
+            let miss = (found - exact).norm();
+            // The facets of a ball leave 1e-3 of how full its box is.
+            assert!(miss < 3e-3 * exact.norm(), "{found} {exact}");
+        }
+    }
 }

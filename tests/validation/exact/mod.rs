@@ -5,7 +5,9 @@
 mod impacts;
 mod law;
 mod off_center;
+mod readout;
 mod rotating_fluid;
+mod thesis_laws;
 
 use crate::support;
 use rapier3d_immersed::geometry::Ellipsoid;

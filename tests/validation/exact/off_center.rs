@@ -53,6 +53,14 @@ fn body() -> (ImmersedBody, DryMass, Planar) {
     (body.with_law(ViscousLaw::Inviscid).unwrap(), dry, planar)
 }
 
+/// A body under another law whose center of mass is off its middle in all three directions.
+pub(super) fn lopsided(law: ViscousLaw) -> (ImmersedBody, DryMass) {
+    let (body, mut dry, _) = body();
+    dry.center = Vector3::new(0.02, -ARM, 0.01);
+    dry.mass *= 1.3;
+    (body.with_law(law).unwrap(), dry)
+}
+
 /// The same body in rapier.
 fn inserted(world: &mut PhysicsWorld, turn: Vector) -> (RigidBodyHandle, ImmersedBody, Planar) {
     let (_, dry, planar) = body();

@@ -5,6 +5,7 @@ use crate::sites::Site;
 use crate::{Options, Result};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// Most rounds of building and leaving out: the compiler shows some errors only where there are no others.
@@ -156,7 +157,17 @@ fn blame(error: &Value, places: &BTreeMap<String, Vec<Place>>) -> BTreeSet<usize
 /// One program of tests.
 pub struct Binary {
     pub name: String,
-    pub path: String,
+    path: PathBuf,
+    folder: PathBuf,
+}
+
+impl Binary {
+    /// Runs it where cargo would.
+    pub fn command(&self) -> Command {
+        let mut command = Command::new(&self.path);
+        command.current_dir(&self.folder);
+        command
+    }
 }
 
 /// Builds the tests.
@@ -182,14 +193,23 @@ pub fn binaries(copy: &Copy, options: &Options) -> Result<Vec<Binary>> {
             .unwrap_or_default()
             .to_owned());
     }
-    Ok(messages
+    let built = messages
         .iter()
-        .filter(|message| message["profile"]["test"] == true)
+        .filter(|message| message["profile"]["test"] == true);
+    built
         .filter_map(|message| {
-            Some(Binary {
-                name: message["target"]["name"].as_str()?.to_owned(),
-                path: message["executable"].as_str()?.to_owned(),
+            let name = message["target"]["name"].as_str()?;
+            Some((name, message["executable"].as_str()?))
+        })
+        .map(|(name, built)| {
+            // Another build in the same target folder would replace it.
+            let path = copy.folder.with_file_name(format!("tests-{name}"));
+            std::fs::copy(built, &path).map_err(|error| format!("{built}: {error}"))?;
+            Ok(Binary {
+                name: name.to_owned(),
+                path,
+                folder: copy.folder.clone(),
             })
         })
-        .collect())
+        .collect()
 }
