@@ -64,6 +64,7 @@ fn removal_in_flight_and_reuse_of_handles() {
 fn additional_mass_is_given_back() {
     let extra = MassProperties::new(Vector::X * 0.01, 2e-3, Vector::new(1e-6, 2e-6, 3e-6));
     for (builder, mass) in [
+        (RigidBodyBuilder::dynamic(), 0.0),
         (RigidBodyBuilder::dynamic().additional_mass(0.5), 0.5),
         (
             RigidBodyBuilder::dynamic().additional_mass_properties(extra),
@@ -200,6 +201,10 @@ fn refusals_are_reported() {
     );
     let text = immersion.warnings().last().unwrap().to_string();
     assert!(text.contains("mass must be positive"), "{text}");
+    // Once: trying again does not say it again.
+    immersion.set_body_enabled(massless, true);
+    immersion.step(&mut world);
+    assert_eq!(immersion.warnings().len(), 1);
 }
 
 /// A turned leaf hull is where rapier's own inertia is wrong; the user hears of it.

@@ -92,16 +92,20 @@ impl Planar {
 
     /// v̇ and ω̇ per acceleration of the fluid along x: the pressure gradient pushes with ρV, the added mass
     /// with A times the acceleration relative to the fluid, both at C.
+    fn response(&self) -> [f64; 2] {
+        let push = self.displaced + self.sway;
+        self.acceleration(push, -ARM * push)
+    }
+
+    /// v̇ and ω̇ under a force along x at G and a torque about z.
     ///
     /// ```text
-    /// (m + A) v̇ − A d ω̇ = ρV + A
-    /// −A d v̇ + (I + A₂₂ + A d²) ω̇ = −d (ρV + A)
+    /// (m + A) v̇ − A d ω̇ = F
+    /// −A d v̇ + (I + A₂₂ + A d²) ω̇ = T
     /// ```
-    fn response(&self) -> [f64; 2] {
+    fn acceleration(&self, force: f64, torque: f64) -> [f64; 2] {
         let (m11, m12) = (self.mass + self.sway, -self.sway * ARM);
         let m22 = INERTIA + self.turn + self.sway * ARM * ARM;
-        let push = self.displaced + self.sway;
-        let (force, torque) = (push, -ARM * push);
         let determinant = m11 * m22 - m12 * m12;
         [
             (force * m22 - m12 * torque) / determinant,
@@ -185,6 +189,44 @@ fn torque_of_buoyancy() {
     assert!((forces.buoyancy.torque - torque).length() < 1e-5 * lift.length() * ARM as Real);
 }
 
+/// A body swings alike, to the bit, whether it is alone or first or last among others of no arm, with which it
+/// takes the step side by side (their axes of inertia are askew, so that they take the same route).
+#[test]
+fn neighbours_without_arm_do_not_matter() {
+    let pose = |before: usize, after: usize| {
+        let mut world = PhysicsWorld::new();
+        let mut immersion = Immersion::new(Fluid::WATER);
+        let mut straight = |world: &mut PhysicsWorld, count: usize| {
+            for i in 0..count {
+                let at = Vector::new(0.0, 5.0, 3.0 * (1 + i + before) as Real);
+                let [x, y, z] = HALF.map(|half| half as Real);
+                let moments = Vector::new(0.06, 0.055, 0.05);
+                let askew = Rotation::from_scaled_axis(Vector::new(0.3, 0.2, 0.1));
+                let mass =
+                    MassProperties::with_principal_inertia_frame(Vector::ZERO, 7.2, moments, askew);
+                let (handle, _) = world.insert(
+                    RigidBodyBuilder::dynamic().translation(at),
+                    ColliderBuilder::cuboid(x, y, z).mass_properties(mass),
+                );
+                let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle);
+                let body = ImmersedBody::new(hydro.unwrap());
+                immersion.insert(handle, body.with_law(ViscousLaw::Inviscid).unwrap());
+            }
+        };
+        straight(&mut world, before);
+        let (handle, body, _) = inserted(&mut world, Vector::new(0.3, 0.2, 0.4));
+        straight(&mut world, after);
+        immersion.insert(handle, body);
+        (0..60).for_each(|_| immersion.step(&mut world));
+        let swung = world.bodies[handle].angvel();
+        assert!(swung.length() > 0.1, "{swung}");
+        *world.bodies[handle].position()
+    };
+    let alone = pose(0, 0);
+    assert_eq!(pose(0, 3), alone);
+    assert_eq!(pose(3, 0), alone);
+}
+
 /// A uniform stream that speeds up from rest.
 struct SpeedingUp(Vector);
 
@@ -218,6 +260,36 @@ fn an_accelerating_flow_turns_the_body() {
         let w = turn.inverse() * rapier.angvel() - Vector::Z * angular;
         assert!(angular.abs() > 0.02, "{angular}");
         assert!(v.length() < 0.003 * linear.abs(), "{v} {linear}");
+        assert!(w.length() < 0.003 * angular.abs(), "{w} {angular}");
+    }
+}
+
+/// A user's force and torque move body and fluid together, and each turns and shifts the body. The tolerance is
+/// that of the flow above.
+#[test]
+fn forces_of_the_user() {
+    for (force, torque) in [(2.0, 0.0), (0.0, -0.05), (-1.0, 0.03)] {
+        let mut world = weightless();
+        world.integration_parameters.dt = 1.0 / 240.0;
+        let turn = Rotation::from_scaled_axis(Vector::new(0.5, 0.9, -0.3));
+        let (handle, body, planar) = inserted(&mut world, turn.to_scaled_axis());
+        let mut immersion = Immersion::new(Fluid::WATER);
+        immersion.insert(handle, body);
+        let rapier = &mut world.bodies[handle];
+        rapier.add_force(turn * Vector::X * force as Real, true);
+        rapier.add_torque(turn * Vector::Z * torque as Real, true);
+        for _ in 0..24 {
+            immersion.step(&mut world);
+        }
+        let [linear, angular] = planar
+            .acceleration(force, torque)
+            .map(|a| (a * 0.1) as Real);
+        let rapier = &world.bodies[handle];
+        let v = turn.inverse() * rapier.linvel() - Vector::X * linear;
+        let w = turn.inverse() * rapier.angvel() - Vector::Z * angular;
+        // A torque moves G by little, the body's turning C by more.
+        let speed = linear.abs() + angular.abs() * ARM as Real;
+        assert!(v.length() < 0.003 * speed, "{v} {linear}");
         assert!(w.length() < 0.003 * angular.abs(), "{w} {angular}");
     }
 }

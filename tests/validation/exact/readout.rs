@@ -126,3 +126,70 @@ fn factors_show() {
         assert_ne!(plain.rotational_lift.force, Vector::ZERO);
     }
 }
+
+/// A body that follows a state has it and keeps the integrator's memory: following its own state changes nothing.
+#[test]
+fn a_body_follows_its_own_state() {
+    let (body, dry) = lopsided(ViscousLaw::default());
+    let mut body = FreeBody::new(&body, &dry, &Fluid::WATER).unwrap();
+    let gravity = Vector3::new(0.0, -9.81, 0.0);
+    body.set_velocity(Vector3::new(0.4, -0.3, 0.5), Vector3::new(2.0, 1.0, -1.5));
+    (0..30).for_each(|_| body.step(0.01, gravity));
+    let mut other = body.clone();
+    let (v, w) = (body.linear_velocity(), body.angular_velocity());
+    other.follow(body.position, body.orientation(), v, w);
+    let elsewhere = Vector3::new(1.0, 2.0, 3.0);
+    let mut moved = body.clone();
+    moved.follow(elsewhere, body.orientation(), w, v);
+    assert_eq!(moved.position, elsewhere);
+    assert!((moved.linear_velocity() - w).norm() < 1e-12);
+    assert!((moved.angular_velocity() - v).norm() < 1e-12);
+    for _ in 0..30 {
+        body.step(0.01, gravity);
+        other.step(0.01, gravity);
+        assert!((body.position - other.position).norm() < 1e-9);
+        assert!((body.angular_velocity() - other.angular_velocity()).norm() < 1e-7);
+    }
+    // Without its memory it would go another way.
+    let mut forgetful = body.clone();
+    forgetful.set_velocity(body.linear_velocity(), body.angular_velocity());
+    (0..2).for_each(|_| {
+        body.step(0.01, gravity);
+        forgetful.step(0.01, gravity);
+    });
+    assert!((body.linear_velocity() - forgetful.linear_velocity()).norm() > 1e-6);
+}
+
+/// Setting the velocity of a body forgets what it did before: it goes on as a new one.
+#[test]
+fn setting_the_velocity_forgets() {
+    let (body, dry) = lopsided(ViscousLaw::default());
+    let mut new = FreeBody::new(&body, &dry, &Fluid::WATER).unwrap();
+    let mut used = new.clone();
+    let gravity = Vector3::new(0.0, -9.81, 0.0);
+    (0..30).for_each(|_| used.step(0.01, gravity));
+    used.position = Vector3::zeros();
+    used.set_orientation(UnitQuaternion::identity());
+    used.set_velocity(Vector3::zeros(), Vector3::zeros());
+    for _ in 0..10 {
+        used.step(0.01, gravity);
+        new.step(0.01, gravity);
+        assert!((used.position - new.position).norm() < 1e-12);
+        assert!((used.linear_velocity() - new.linear_velocity()).norm() < 1e-12);
+    }
+}
+
+/// Components are added and subtracted force by force and torque by torque.
+#[test]
+fn components_are_vectors() {
+    let of = |x: f32, y: f32| ForceAndTorque {
+        force: Vector::new(x, 0.0, 1.0),
+        torque: Vector::new(0.0, y, 2.0),
+    };
+    let difference = ForceAndTorque {
+        force: Vector::X * 2.0,
+        torque: Vector::Y * -5.0,
+    };
+    assert_eq!(of(3.0, -1.0) - of(1.0, 4.0), difference);
+    assert_eq!(of(1.0, 4.0) + difference, of(3.0, -1.0));
+}

@@ -84,15 +84,11 @@ struct Options {
     /// Number of mutants that compile.
     #[arg(long, default_value_t = 300)]
     number: usize,
-    /// Features of the crate.
-    #[arg(long, default_value = "bake,serde-serialize")]
+    /// Features of the crate; without `bake` none are drawn in its boundary elements.
+    #[arg(long, default_value = "")]
     features: String,
     /// Test binaries besides the unit tests.
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "validation,added_mass,turbulence"
-    )]
+    #[arg(long, value_delimiter = ',', default_value = "validation")]
     tests: Vec<String>,
     /// Tests whose names begin so are left out. Energy of held bodies: a rare case fails for any change of a bit.
     #[arg(long, value_delimiter = ',', default_value = "held::energy")]
