@@ -47,7 +47,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-/// Files that others are still building on: drawn from only when asked.
+/// Files of held bodies, which are being rebuilt: drawn from only when asked (`--except ''`).
 const UNDER_CONSTRUCTION: [&str; 8] = [
     "src/coupling/step/constraint_impulse.rs",
     "src/coupling/step/energy_budget.rs",
