@@ -196,12 +196,39 @@ mod tests {
         }
     }
 
+    /// The matrix leads back to the tensor, its rounding's asymmetry halved.
+    #[test]
+    fn the_matrix_is_the_tensor() {
+        let mut m = sample().to_matrix6();
+        m[(0, 4)] += 2e-3;
+        m[(4, 1)] = 0.7;
+        m[(1, 4)] = 0.7;
+        let mut halved = m;
+        halved[(0, 4)] -= 1e-3;
+        halved[(4, 0)] += 1e-3;
+        let back = AddedMass::from_matrix6(&m).to_matrix6();
+        assert!((back - halved).norm() < 1e-12, "{}", back - halved);
+    }
+
+    /// Every entry of a sum is the sum of the entries.
+    #[test]
+    fn tensors_add_up() {
+        let (a, b) = (sample(), sample().about(Vector3::new(0.5, 0.25, -2.0)));
+        let sum = (a + b).to_matrix6();
+        assert!((sum - a.to_matrix6() - b.to_matrix6()).norm() < 1e-12);
+    }
+
     #[test]
     fn negative_energy_and_nan_are_not_physical() {
         assert!(sample().is_physical());
         let mut negative = sample();
         negative.linear[(0, 0)] = -1.0;
         assert!(!negative.is_physical());
+        // However small: this one, of a millimeter, has less energy than rounding would be of a meter's.
+        let mut small = AddedMass::diagonal(Vector3::repeat(1e-9), Vector3::repeat(1e-15));
+        assert!(small.is_physical());
+        small.coupling[(0, 1)] = 1e-11;
+        assert!(!small.is_physical());
         let mut nan = sample();
         nan.coupling[(1, 2)] = f64::NAN;
         assert!(!nan.is_physical());

@@ -114,9 +114,12 @@ mod tests {
         let mut point = good.clone();
         point.proxy.semi_axes *= 0.0;
         assert!(point.check().is_err());
-        let mut skewed = good.clone();
-        skewed.planform.axes =
-            rapier3d::na::Rotation3::from_matrix_unchecked(skewed.planform.axes.matrix() * 2.0);
-        assert!(skewed.check().is_err());
+        // Longer, shorter, and mirrored.
+        for factor in [2.0, 0.9, -1.0] {
+            let mut skewed = good.clone();
+            let axes = skewed.planform.axes.matrix() * factor;
+            skewed.planform.axes = rapier3d::na::Rotation3::from_matrix_unchecked(axes);
+            assert!(skewed.check().is_err(), "{factor}");
+        }
     }
 }

@@ -314,6 +314,49 @@ mod tests {
         }
     }
 
+    /// One step keeps e^(−x) of the fluctuation and adds √(1 − e^(−2x)) of the noise, x = ¾C₀χ dt √(1 + u²/(⅔k))
+    /// with the speed u through the eddies; in the thesis's mode e^(−y), y = (½ + ¾C₀)χ dt, and a share of the
+    /// variance ½C₀ε/(½ + ¾C₀)χ. By hand, for short steps and long ones.
+    #[test]
+    fn one_step() {
+        let state = TurbulenceState {
+            kinetic_energy: 0.6,
+            dissipation: 2.0,
+        };
+        let (k, epsilon, c0) = (0.6_f64, 2.0, 4.0);
+        for (dt, speed) in [(0.01, 0.0), (0.01, 2.5), (0.3, 0.4), (0.3, 2.5), (2.0, 1.5)] {
+            let deviation = (2.0 / 3.0 * k).sqrt();
+            let x = 0.75 * c0 * epsilon / k * dt * (1.0 + speed * speed / (2.0 / 3.0 * k)).sqrt();
+            let (kept, fresh) = ((-x).exp(), (-(-2.0 * x).exp_m1()).sqrt());
+            let mut seen = SeenFluctuation::stationary(Vector::new(1.0, -0.5, 0.0));
+            let noise = Vector::new(0.3, 0.0, -2.0);
+            let (dt32, speed32) = (dt as Real, speed as Real);
+            let found = seen.advance(&state, c0 as Real, speed32, dt32, noise);
+            let exact = [kept + 0.3 * fresh, -0.5 * kept, -2.0 * fresh];
+            for axis in 0..3 {
+                let miss = f64::from(found[axis]) - deviation * exact[axis];
+                assert!(miss.abs() < 1e-5, "{dt} {speed}: {found}");
+                let miss = f64::from(seen.normalized[axis]) - exact[axis];
+                assert!(miss.abs() < 1e-5, "{dt} {speed}: {}", seen.normalized);
+            }
+
+            let alpha = (0.5 + 0.75 * c0) * epsilon / k;
+            let variance = c0 * epsilon / (2.0 * alpha);
+            let kept = (-alpha * dt).exp();
+            let fresh = (-variance * (-2.0 * alpha * dt).exp_m1()).sqrt();
+            let v = Vector::new(1.0, -0.5, 0.0);
+            let found = relative_velocity_after(v, &state, c0 as Real, dt32, noise);
+            let exact = [kept + 0.3 * fresh, -0.5 * kept, -2.0 * fresh];
+            for axis in 0..3 {
+                let miss = f64::from(found[axis]) - exact[axis];
+                assert!(miss.abs() < 1e-5, "{dt}: {found}");
+            }
+            let found = spin_increment(&state, c0 as Real, 0.2, dt32, noise);
+            let exact = (c0 * epsilon * dt).sqrt() / 0.2;
+            assert!((f64::from(found.z) / exact + 2.0).abs() < 1e-5, "{found}");
+        }
+    }
+
     #[test]
     fn no_turbulence_is_no_fluctuation() {
         let still = TurbulenceState::default();

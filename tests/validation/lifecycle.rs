@@ -101,6 +101,79 @@ fn the_number_of_bodies_is_right() {
     assert_eq!((immersion.len(), immersion.len_in(&world.bodies)), (2, 2));
 }
 
+/// Additional mass, given as a number or as mass properties, is given back with the rest, and a body that sleeps
+/// is not woken by it.
+#[test]
+fn additional_mass_is_given_back() {
+    let extra = MassProperties::new(Vector::X * 0.01, 2e-3, Vector::new(1e-6, 2e-6, 3e-6));
+    for (builder, mass) in [
+        (RigidBodyBuilder::dynamic(), 0.0),
+        (RigidBodyBuilder::dynamic().additional_mass(0.5), 0.5),
+        (
+            RigidBodyBuilder::dynamic().additional_mass_properties(extra),
+            2e-3,
+        ),
+    ] {
+        let mut world = PhysicsWorld::new();
+        let collider = ColliderBuilder::cuboid(0.04, 0.02, 0.03).density(300.0);
+        let (body, _) = world.insert(builder, collider);
+        world.step();
+        let before = world.bodies[body].mass_properties().local_mprops;
+        let own = 300.0 * 8.0 * 0.04 * 0.02 * 0.03;
+        assert!((before.mass() / (own + mass) - 1.0).abs() < 1e-5);
+        let shape = hydro(&world, body);
+        let mut immersion = Immersion::new(Fluid::WATER);
+        immersion.insert(body, shape);
+        immersion.step(&mut world);
+        assert_ne!(world.bodies[body].mass_properties().local_mprops, before);
+        world.bodies[body].sleep();
+        immersion.remove(body, &mut world.bodies, &mut world.colliders);
+        let body = &world.bodies[body];
+        assert!(body.is_sleeping());
+        let after = body.mass_properties().local_mprops;
+        assert!((after.mass() / before.mass() - 1.0).abs() < 1e-6);
+        assert!((after.local_com - before.local_com).length() < 1e-7);
+    }
+}
+
+/// A body that is switched off or on leaves or enters with the very next step.
+#[test]
+fn switching_a_body_takes_effect_at_once() {
+    let mut world = PhysicsWorld::new();
+    let leaf = leaf(&mut world, 100.0);
+    let shape = hydro(&world, leaf);
+    let mut immersion = Immersion::new(Fluid::AIR);
+    immersion.insert(leaf, shape);
+    for enabled in [true, false, true, false] {
+        immersion.set_body_enabled(leaf, enabled);
+        immersion.step(&mut world);
+        assert_eq!(immersion.forces(&world.bodies, leaf).is_some(), enabled);
+        assert_eq!(world.bodies[leaf].gyroscopic_forces_enabled(), !enabled);
+    }
+}
+
+/// A body's switches are its user's: those that the crate sets are given back as they were.
+#[test]
+fn switches_are_given_back() {
+    for (gyroscopic, fast) in [(false, false), (false, true), (true, false), (true, true)] {
+        let mut world = PhysicsWorld::new();
+        let leaf = leaf(&mut world, 100.0);
+        world.bodies[leaf].enable_gyroscopic_forces(gyroscopic);
+        world.bodies[leaf].set_allow_fast_rotation(fast);
+        let shape = hydro(&world, leaf);
+        let mut immersion = Immersion::new(Fluid::AIR);
+        immersion.insert(leaf, shape);
+        immersion.step(&mut world);
+        // In the fluid the crate's own equations have the gyroscopic torque, and no limit.
+        assert!(!world.bodies[leaf].gyroscopic_forces_enabled());
+        assert!(world.bodies[leaf].is_fast_rotation_allowed());
+        immersion.remove(leaf, &mut world.bodies, &mut world.colliders);
+        let body = &world.bodies[leaf];
+        assert_eq!(body.gyroscopic_forces_enabled(), gyroscopic);
+        assert_eq!(body.is_fast_rotation_allowed(), fast);
+    }
+}
+
 /// Removing from the fluid gives back what the body had; one body can be switched off alone.
 #[test]
 fn leaving_the_fluid() {
@@ -171,6 +244,10 @@ fn refusals_are_reported() {
     );
     let text = immersion.warnings().last().unwrap().to_string();
     assert!(text.contains("mass must be positive"), "{text}");
+    // Once: trying again does not say it again.
+    immersion.set_body_enabled(massless, true);
+    immersion.step(&mut world);
+    assert_eq!(immersion.warnings().len(), 1);
 }
 
 /// A turned leaf hull is where rapier's own inertia is wrong; the user hears of it.

@@ -6,6 +6,7 @@ mod colliders;
 mod control;
 mod determinism;
 mod equivalence;
+mod exact;
 mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod fuzz;

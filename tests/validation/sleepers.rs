@@ -140,3 +140,68 @@ fn no_flow_is_a_flow_of_zero() {
     let felt = cleared.0.x - cleared.1.x;
     assert!((felt - jump).abs() < 0.05, "{felt} for {jump} m/s");
 }
+
+/// The limit is a pressure of a quarter of the weight: ½ρA U² of a wind that rises, ½ρA ⅔k of turbulence. A
+/// twentieth less lets the ball sleep, a twentieth more wakes it.
+#[test]
+fn a_quarter_of_the_weight_wakes() {
+    let area = std::f32::consts::PI * 0.05 * 0.05;
+    let volume = 4.0 / 3.0 * area * 0.05;
+    let limit = 0.25 * 100.0 * volume * 9.81 / (0.5 * 1000.0 * area);
+    for (share, wanted) in [(0.95, false), (1.05, true)] {
+        let (mut world, mut immersion, handle) = sleeping(ball(), water(1000.0), 0.0);
+        immersion.set_flow(Uniform::new(0.0, 0.0, (share * limit).sqrt()));
+        let woke = wakes(&mut world, &mut immersion, handle).is_some();
+        assert_eq!(woke, wanted, "wind, {share}");
+        let (mut world, mut immersion, handle) = sleeping(ball(), water(1000.0), 0.0);
+        immersion.set_turbulence(Turbulence::Homogeneous(TurbulenceState {
+            kinetic_energy: 1.5 * share * limit,
+            dissipation: 1.0,
+        }));
+        let woke = wakes(&mut world, &mut immersion, handle).is_some();
+        assert_eq!(woke, wanted, "turbulence, {share}");
+    }
+}
+
+/// A body that falls asleep again in turbulence that woke it is not woken by that which it knows.
+#[test]
+fn known_turbulence_lets_it_sleep() {
+    let (mut world, mut immersion, handle) = sleeping(ball(), water(1000.0), 0.0);
+    immersion.set_turbulence(Turbulence::Homogeneous(TurbulenceState {
+        kinetic_energy: 1.0,
+        dissipation: 1.0,
+    }));
+    assert!(wakes(&mut world, &mut immersion, handle).is_some());
+    world.bodies[handle].sleep();
+    assert_eq!(wakes(&mut world, &mut immersion, handle), None);
+}
+
+/// To end the turbulence where nothing flows is to set a flow of zero, too: to the bit, and the fluid's
+/// fluctuation comes to rest within the next step.
+#[test]
+fn no_turbulence_is_a_fluid_that_stops() {
+    let fall = |still: bool| {
+        let mut world = PhysicsWorld::new();
+        let (handle, _) = world.insert(RigidBodyBuilder::dynamic(), ball());
+        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
+        let mut immersion = Immersion::new(Fluid::WATER);
+        immersion.insert(handle, hydro);
+        immersion.set_turbulence(Turbulence::Homogeneous(TurbulenceState {
+            kinetic_energy: 1.0,
+            dissipation: 1.0,
+        }));
+        (0..60).for_each(|_| immersion.step(&mut world));
+        if still {
+            immersion.set_flow(Uniform::new(0.0, 0.0, 0.0));
+        }
+        let before = world.bodies[handle].linvel();
+        immersion.clear_turbulence();
+        immersion.step(&mut world);
+        let after = world.bodies[handle].linvel();
+        (0..60).for_each(|_| immersion.step(&mut world));
+        (before, after, *world.bodies[handle].position())
+    };
+    let cleared = fall(false);
+    assert_eq!(cleared, fall(true));
+    assert!((cleared.0 - cleared.1).length() > 0.2, "{cleared:?}");
+}

@@ -44,6 +44,8 @@ const SLACK: Real = 1e-5;
 const ROUNDING: Real = 1e-6;
 /// Part of the expected impulse below which a constraint counts as open.
 const OPEN: Real = 0.25;
+/// Step from which nothing is learnt, s: its impulse is a rounding error.
+const SHORT: Real = 1e-5;
 /// Turn in a step, rad, after which the last impulse says nothing about the next.
 const FAR: Real = 1.0;
 /// Turn in a step, rad, below which it does not matter whether the impulse turns with the body.
@@ -79,6 +81,9 @@ pub(super) fn is_slack(shared: &SharedConstants, body: &RigidBody, flight: &Flig
 /// in a step and whose joint does not turn with it will be pushed in another direction: nothing is expected
 /// then.
 pub(super) fn of_step(flight: &FlightState, angular: Vector, dt: Real) -> Vector {
+    if dt < SHORT {
+        return Vector::ZERO;
+    }
     let turn = angular.length() * dt;
     let share = if flight.constraint_time > dt {
         dt / flight.constraint_time
@@ -128,6 +133,11 @@ pub(super) fn learn(
     let surprise = surprise * solver_mass * (Vector::ONE - vector(locked));
     let expected = start.impulse;
     let impulse = expected + surprise;
+    let turned = body.angvel() * (1.0 + dt * body.angular_damping());
+    let turn = turned - start.angular - start.expected_turn;
+    if dt < SHORT {
+        return Learnt { impulse, turn };
+    }
     let mean_turn = (start.angular + body.angvel()) * (0.5 * dt);
     if mean_turn.length_squared() > NEAR * NEAR {
         let last = flight.constraint_impulse;
@@ -139,8 +149,7 @@ pub(super) fn learn(
     let opened =
         expected != Vector::ZERO && impulse.dot(expected) < OPEN * expected.length_squared();
     flight.constraint_time = dt;
-    let turned = body.angvel() * (1.0 + dt * body.angular_damping());
-    flight.constraint_turn = turned - start.angular - start.expected_turn;
+    flight.constraint_turn = turn;
     if opened {
         let right = masses.scale(attitude, surprise, |mass| 1.0 / mass - 1.0 / solver_mass);
         if !start.linked {
@@ -155,8 +164,5 @@ pub(super) fn learn(
         flight.constraint_impulse = Vector::ZERO;
         flight.constraint_turn = Vector::ZERO;
     }
-    Learnt {
-        impulse,
-        turn: flight.constraint_turn,
-    }
+    Learnt { impulse, turn }
 }

@@ -276,6 +276,61 @@ mod tests {
         }
     }
 
+    /// Rotation vectors of turns by up to two radians, to what is said of the series: 5e-5 of the turn.
+    #[test]
+    fn rotation_vector_of_large_turns() {
+        let axis = Vector::new(0.6, -0.48, 0.64);
+        for angle in [0.5, 1.0, 1.5, 2.0_f32] {
+            let turn = quaternion(Rotation::from_axis_angle(axis, angle));
+            let found = vector(&rotation_vector(&turn));
+            assert!(
+                (found - axis * angle).length() < 5e-5 * angle,
+                "{angle}: {found}"
+            );
+        }
+    }
+
+    /// In double precision the series finds the start velocity from which n Cayley maps have led to an attitude
+    /// (turns by a quarter of a radian). What it leaves out, 2.6e-7 for n = 4 and less for more, is less than a
+    /// tenth of each of its terms is: of that with μ 5e-7, of that with λ 3e-6.
+    #[test]
+    fn the_series_finds_the_start() {
+        for count in [4_u8, 8, 16] {
+            let start = Vector3::new(0.5, 0.9, -0.7) * 0.2;
+            let end = Vector3::new(0.9, 0.5, -0.9) * 0.2;
+            let mut turn = Quaternion::new(1.0, 0.0, 0.0, 0.0);
+            for k in 1..=count {
+                let share = f64::from(k) / f64::from(count);
+                let a = (start + (end - start) * share) * (0.5 / f64::from(count));
+                turn = Quaternion::from_parts(1.0, a) * turn;
+            }
+            let target = Target {
+                scheme: &SubstepScheme::new(1.0, count.into()),
+                attitude: Quaternion::new(1.0, 0.0, 0.0, 0.0),
+                end_attitude: turn.normalize(),
+                linear: Vector3::zeros(),
+                angular: Vector3::zeros(),
+                end_linear: Vector3::zeros(),
+                end_angular: end,
+                displacement: Vector3::zeros(),
+                free: 1.0_f64,
+            };
+            let miss = (target.matched().start_angular - start).norm();
+            assert!(miss < 3.5e-7, "{count}: {miss:e}");
+        }
+    }
+
+    /// A world that is told to take no substep at all gets the numbers of one.
+    #[test]
+    fn no_substep_is_one() {
+        let of = |substeps| {
+            let s = SubstepScheme::new(0.01, substeps);
+            (s.gain, s.kappa, s.mu, s.lambda, s.cayley, s.split)
+        };
+        assert_eq!(of(0), of(1));
+        assert!(of(0).0.is_finite());
+    }
+
     /// Rotation vectors of small turns, whichever sign the quaternion has.
     #[test]
     fn rotation_vector_of_small_turns() {

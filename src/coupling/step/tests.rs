@@ -4,12 +4,15 @@ use super::contact_mass;
 use super::contact_mass::CloseBodies;
 use crate::body::ImmersedBody;
 use crate::coupling::{Immersion, RapierSets};
-use crate::flow::{GridFlow, Layers, Shear, Vortex};
+use crate::flow::{GridFlow, Layers, Shear, Uniform, Vortex};
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::{StochasticLaw, ThesisLaw, ViscousLaw};
 use crate::math::NARROW;
-use crate::turbulence::{Turbulence, TurbulenceState};
+use crate::turbulence::{
+    LangevinMode, NoiseStream, SeenFluctuation, Turbulence, TurbulenceState, TurbulentLayer,
+    kolmogorov_constant, relative_velocity_after, spin_increment,
+};
 use rapier3d::prelude::*;
 use std::sync::atomic::Ordering;
 
@@ -141,4 +144,196 @@ fn bodies_that_are_passed_over_touch_nothing() {
             "{near} {passed} {crowded}"
         );
     }
+}
+
+/// A body that enters another fluid while it touches something meets it anew: what its contacts do is
+/// corrected from the first step on.
+#[test]
+fn contacts_are_corrected_anew_in_another_fluid() {
+    let mut world = PhysicsWorld::new();
+    world.insert(
+        RigidBodyBuilder::fixed(),
+        ColliderBuilder::cuboid(1.0, 0.1, 1.0),
+    );
+    let (plate, _) = world.insert(
+        RigidBodyBuilder::dynamic().translation(Vector::Y * 0.106),
+        ColliderBuilder::cuboid(0.1, 0.005, 0.1).density(2700.0),
+    );
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, plate).unwrap();
+    let mut immersion = Immersion::new(Fluid::WATER);
+    immersion.insert(plate, hydro);
+    let corrected = |immersion: &Immersion| {
+        let state = immersion.registry.states()[0].as_ref().unwrap();
+        state.flight.corrected_contacts
+    };
+    for _ in 0..20 {
+        immersion.step(&mut world);
+    }
+    assert_eq!(corrected(&immersion), 3);
+    immersion.set_fluid(Fluid::AIR);
+    immersion.before_step(&mut RapierSets::of(&mut world));
+    assert_eq!(corrected(&immersion), 0);
+}
+
+/// Of several contacts the strongest decides the mass: a box that stands on the floor and just touches a wall
+/// shows the mass that it has along the vertical.
+#[test]
+fn the_strongest_contact_has_the_normal() {
+    let mut world = PhysicsWorld::new();
+    let floor = ColliderBuilder::cuboid(1.0, 0.1, 1.0);
+    world.insert(RigidBodyBuilder::fixed(), floor);
+    let wall = ColliderBuilder::cuboid(0.1, 1.0, 1.0).friction(0.0);
+    world.insert(
+        RigidBodyBuilder::fixed().translation(Vector::X * 0.201),
+        wall,
+    );
+    let (handle, _) = world.insert(
+        RigidBodyBuilder::dynamic().translation(Vector::Y * 0.15),
+        ColliderBuilder::cuboid(0.1, 0.05, 0.1).density(2700.0),
+    );
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
+    let mut immersion = Immersion::new(Fluid::WATER);
+    immersion.insert(handle, hydro);
+    for _ in 0..30 {
+        immersion.step(&mut world);
+    }
+    let sets = RapierSets::of(&mut world);
+    let state = immersion.registry.states()[0].as_ref().unwrap();
+    let shared = immersion.constants.get(state.constants).unwrap();
+    let body = &sets.bodies[handle];
+    assert_eq!(sets.narrow_phase.contact_pairs().count(), 2);
+    let normal = contact_mass::normal(shared, body, &sets).unwrap();
+    assert!(normal.y.abs() > 0.99, "{normal}");
+}
+
+/// Normals that point opposite ways are one direction to a mass: a box between two walls shows the mass that it
+/// has across them.
+#[test]
+fn opposite_contacts_are_one_direction() {
+    let mut world = PhysicsWorld {
+        gravity: Vector::ZERO,
+        ..PhysicsWorld::new()
+    };
+    for side in [-0.2, 0.2] {
+        let wall = ColliderBuilder::cuboid(0.1, 1.0, 1.0).translation(Vector::X * side);
+        world.insert(RigidBodyBuilder::fixed(), wall);
+    }
+    let (handle, _) = world.insert(
+        RigidBodyBuilder::dynamic(),
+        ColliderBuilder::cuboid(0.0999, 0.05, 0.1).density(2700.0),
+    );
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
+    let mut immersion = Immersion::new(Fluid::WATER);
+    immersion.insert(handle, hydro);
+    for _ in 0..3 {
+        immersion.step(&mut world);
+    }
+    let sets = RapierSets::of(&mut world);
+    let state = immersion.registry.states()[0].as_ref().unwrap();
+    let shared = immersion.constants.get(state.constants).unwrap();
+    let normal = contact_mass::normal(shared, &sets.bodies[handle], &sets).unwrap();
+    assert!(normal.x.abs() > 0.99, "{normal}");
+}
+
+/// What a fast, heavy ball sees of the turbulence is the process of `SeenFluctuation` with the noise of its own
+/// stream, number by number, whichever way it flies: its slip, here averaged once more, shortens the memory.
+#[test]
+fn a_body_sees_the_fluctuation_of_its_own_stream() {
+    for direction in [
+        Vector::X,
+        Vector::Y,
+        Vector::Z,
+        Vector::new(0.6, -0.48, 0.64),
+    ] {
+        let dt = 1.0 / 240.0;
+        let mut world = PhysicsWorld {
+            gravity: Vector::ZERO,
+            ..PhysicsWorld::new()
+        };
+        world.integration_parameters.dt = dt;
+        let (handle, _) = world.insert(
+            RigidBodyBuilder::dynamic().linvel(direction * 3.0),
+            ColliderBuilder::ball(0.01).density(1e5),
+        );
+        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
+        let mut immersion = Immersion::new(Fluid::AIR);
+        immersion.insert(handle, hydro);
+        let wind = Vector::new(0.5, 0.2, -0.3);
+        immersion.set_flow(Uniform::new(wind.x, wind.y, wind.z));
+        let state = TurbulenceState {
+            kinetic_energy: 0.6,
+            dissipation: 1.5,
+        };
+        immersion.set_turbulence(TurbulentLayer {
+            seed: 5,
+            ..Turbulence::Homogeneous(state).into()
+        });
+        let viscosity = Fluid::AIR.kinematic_viscosity();
+        let c0 = kolmogorov_constant(state.taylor_reynolds_squared(viscosity));
+        let noise = NoiseStream::new(5, u64::from(handle.into_raw_parts().0));
+        let mut seen = SeenFluctuation::stationary(noise.vector(0, 0));
+        let mut slip = direction * 3.0 - wind;
+        let mut fluctuation = Vector::ZERO;
+        // Weight of a step in an average over ten memories of a tracer, ¾C₀ε/k each.
+        let share = 0.75 * c0 * state.dissipation / state.kinetic_energy * dt / 10.0;
+        for step in 0..60 {
+            let now = world.bodies[handle].linvel() - wind - fluctuation;
+            slip += (now - slip) * (share / (1.0 + share));
+            let draw = u32::from(step == 0);
+            let noise = noise.vector(step, draw);
+            fluctuation = seen.advance(&state, c0, slip.length(), dt, noise);
+            immersion.step(&mut world);
+            let flight = &immersion.registry.states()[0].as_ref().unwrap().flight;
+            let found = flight.turbulence.fluctuation;
+            // A few hundred roundings.
+            let miss = (found - fluctuation).length();
+            assert!(miss < 1e-4, "{step}: {found} {fluctuation}");
+            let miss = (flight.fluid_velocity - wind - found).length();
+            assert!(miss < 1e-6, "{step}: {}", flight.fluid_velocity);
+        }
+    }
+}
+
+/// In the thesis's mode a step changes a heavy ball's velocity by the increments of two independent draws of its
+/// stream, one for each of velocity and spin: what the fluid does in the meantime is a thousandth of that.
+#[test]
+fn increments_are_two_draws() {
+    let mut world = PhysicsWorld {
+        gravity: Vector::ZERO,
+        ..PhysicsWorld::new()
+    };
+    let start = Vector::new(0.2, -0.1, 0.3);
+    let (handle, _) = world.insert(
+        RigidBodyBuilder::dynamic().linvel(start),
+        ColliderBuilder::ball(0.05).density(1e5),
+    );
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
+    let size = hydro.planform.half_extents.x as Real;
+    let mut immersion = Immersion::new(Fluid::AIR);
+    immersion.insert(handle, hydro);
+    let state = TurbulenceState {
+        kinetic_energy: 0.6,
+        dissipation: 1.5,
+    };
+    immersion.set_turbulence(TurbulentLayer {
+        seed: 5,
+        mode: LangevinMode::BodyIncrements,
+        ..Turbulence::Homogeneous(state).into()
+    });
+    immersion.step(&mut world);
+    let viscosity = Fluid::AIR.kinematic_viscosity();
+    let c0 = kolmogorov_constant(state.taylor_reynolds_squared(viscosity));
+    let noise = NoiseStream::new(5, u64::from(handle.into_raw_parts().0));
+    let dt = world.integration_parameters.dt;
+    let linear = relative_velocity_after(start, &state, c0, dt, noise.vector(0, 0));
+    let angular = spin_increment(&state, c0, size, dt, noise.vector(0, 1));
+    let body = &world.bodies[handle];
+    let miss = (body.linvel() - linear).length();
+    assert!(miss < 1e-3 * linear.length(), "{} {linear}", body.linvel());
+    let miss = (body.angvel() - angular).length();
+    assert!(
+        miss < 1e-3 * angular.length(),
+        "{} {angular}",
+        body.angvel()
+    );
 }

@@ -25,6 +25,9 @@ const IMPACT: u8 = 3;
 /// Turn of a multibody's link in a step, rad, from which on the fluid may only brake it.
 const FAST_LINK: f32 = 0.5;
 
+/// Speed above which the motion of a body is not followed, m/s: the integrator's limit.
+const MOST_SPEED: f32 = 1e6;
+
 /// What is written besides rapier's sets.
 pub(super) struct Destination<'a> {
     pub constants: &'a ConstantsTable,
@@ -72,7 +75,12 @@ fn write_body(
         output.start_angular,
     ]
     .map(vector);
-    if !(force + torque + start_linear + start_angular).is_finite() {
+    // Rapier moves what has gone beyond all measure by itself, and the next step begins with what it has then.
+    let fast = vector(output.end_linear).length_squared() > MOST_SPEED * MOST_SPEED;
+    if fast || !(force + torque + start_linear + start_angular).is_finite() {
+        if let Some(state) = to.registry.at_mut(input.state as usize) {
+            state.flight.continues = false;
+        }
         return None;
     }
     let state = to.registry.at_mut(input.state as usize)?;

@@ -126,3 +126,26 @@ impl<T: Scalar, L: Evaluate<T>> Evaluate<T> for Factored<'_, T, L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The error names the factor and its value.
+    #[test]
+    fn bad_factors_are_named() {
+        for (index, name) in ["drag", "rotational lift", "translational lift"]
+            .into_iter()
+            .enumerate()
+        {
+            for bad in [f64::NEG_INFINITY, f64::INFINITY, f64::NAN] {
+                let mut factors = [1.0; 3];
+                factors[index] = bad;
+                let text = ForceFactors::from(factors).check().unwrap_err().to_string();
+                let value = bad.to_string();
+                assert!(text.contains(name) && text.contains(&value), "{text}");
+            }
+        }
+        assert!(ForceFactors::from([0.0, -2.0, -3.0]).check().is_ok());
+    }
+}
