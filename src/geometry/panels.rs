@@ -2,6 +2,8 @@
 //! need them.
 
 use super::graded::{both_ends, one_end};
+use super::rounded::COARSE;
+use super::tessellate::rounded_surface;
 use super::{Ellipsoid, Surface};
 use crate::error::Error;
 use rapier3d::na::Vector3;
@@ -13,7 +15,7 @@ impl Surface {
     ///
     /// Boxes, cylinders, cones and capsules, and compounds of them, are meshed anew: fine toward
     /// their edges, polygons around their axis, and with exactly the volume of the shape. Of all
-    /// other shapes the surface is the one of [`Surface::from_shape`].
+    /// other shapes the surface is the one of [`Surface::from_shape`], with wider panels on rounded borders.
     ///
     /// ```
     /// use rapier3d_immersed::geometry::Surface;
@@ -85,8 +87,13 @@ impl Surface {
                 let parts: Vec<_> = s.shapes().iter().map(|(p, s)| (*p, s.as_ref())).collect();
                 Self::of_parts(&parts, |part| Self::panelled(part, cells))
             }
-            _ => Self::from_shape(shape),
+            _ => Self::panelled_as_is(shape),
         }
+    }
+
+    /// [`Surface::from_shape`] with wider panels on rounded borders.
+    pub(crate) fn panelled_as_is(shape: &dyn Shape) -> Result<Self, Error> {
+        rounded_surface(shape, COARSE)
     }
 
     /// Whether [`Surface::panelled`] makes a better surface of this shape from more cells.

@@ -10,8 +10,10 @@ use rapier3d::na::Vector3;
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Largest angle between neighboring vertices of the sphere.
-const STEP: f64 = PI / 24.0;
+/// Largest angle between neighboring vertices of the sphere, for exact integrals …
+pub(super) const FINE: f64 = PI / 24.0;
+/// … and for boundary elements, of which there may not be too many.
+pub(super) const COARSE: f64 = PI / 12.0;
 
 /// The core of a rounded shape. Rotating about the edge from one face's normal to the other's sweeps the
 /// directions that its part of the surface faces.
@@ -117,10 +119,11 @@ impl Core {
         Ok(volume + area * r + curvature * r * r + 4.0 / 3.0 * PI * r.powi(3))
     }
 
-    /// The surface of the core grown by `border` on all sides, a polyhedron of exactly its volume.
-    pub(super) fn grown(&self, border: f64) -> Result<Surface, Error> {
+    /// The surface of the core grown by `border` on all sides, a polyhedron of exactly its volume with at most
+    /// `step` between the directions of neighbors.
+    pub(super) fn grown(&self, border: f64, step: f64) -> Result<Surface, Error> {
         let volume = self.grown_volume(border)?;
-        let skin = Skin::around(self)?;
+        let skin = Skin::around(self, step)?;
         let surface = |r: f64| Surface::assembled(&skin.vertices(&self.points, r), &skin.triangles);
         // The inscribed polyhedron has too little by some tenths of a per cent: its border is made wider.
         let (mut r, mut found) = (border, surface(border)?);
@@ -131,15 +134,15 @@ impl Core {
                 break;
             }
             // The first step takes the slope of a ball, which is right if the core is small.
-            let step = match slope {
+            let wider = match slope {
                 None => missing * border / (3.0 * volume),
-                Some((step, gained)) if gained != 0.0 => missing * step / gained,
+                Some((wider, gained)) if gained != 0.0 => missing * wider / gained,
                 Some(_) => break,
             };
-            r += step;
+            r += wider;
             let next = surface(r)?;
             let gained = next.volume_integrals().volume - (volume - missing);
-            slope = Some((step, gained));
+            slope = Some((wider, gained));
             found = next;
         }
         Ok(found)
@@ -242,11 +245,14 @@ fn smallest_axis(v: Vector3<f64>) -> Vector3<f64> {
 struct Skin {
     vertices: Vec<(u32, Vector3<f64>)>,
     triangles: Vec<[u32; 3]>,
+    /// Largest angle between neighboring vertices.
+    step: f64,
 }
 
 impl Skin {
-    fn around(core: &Core) -> Result<Self, Error> {
+    fn around(core: &Core, step: f64) -> Result<Self, Error> {
         let mut skin = Self {
+            step,
             vertices: Vec::new(),
             triangles: Vec::new(),
         };
@@ -267,7 +273,7 @@ impl Skin {
         for edge in core.edges()? {
             let n = core.normals[edge.faces[0]];
             let sideways = edge.direction.cross(&n).normalize();
-            let count = (edge.angle.abs() / STEP).ceil().max(1.0) as usize;
+            let count = (edge.angle.abs() / step).ceil().max(1.0) as usize;
             let [near, far] = edge.ends.map(|end| {
                 let mut arc = vec![corners[&(edge.faces[0], end)]];
                 for i in 1..count {
@@ -338,7 +344,7 @@ impl Skin {
         let middle = moment.try_normalize(1e-9).or(sum.try_normalize(1e-9));
         let middle = middle.unwrap_or(edge[0]);
         let widest = edge.iter().map(|d| middle.angle(d)).fold(0.0, f64::max);
-        let rings = (widest / STEP).ceil().max(1.0) as usize;
+        let rings = (widest / self.step).ceil().max(1.0) as usize;
         let mut outer = boundary.to_vec();
         for ring in 1..rings {
             let t = ring as f64 / rings as f64;
@@ -428,7 +434,7 @@ mod tests {
             ([1.0, 1.0, 1.0], 1e-6),
         ] {
             let core = Core::cuboid(Vector3::from(half));
-            let found = core.grown(r).unwrap().volume_integrals();
+            let found = core.grown(r, FINE).unwrap().volume_integrals();
             let volume = sections(half, r, |_| 1.0);
             assert_relative_eq!(core.grown_volume(r).unwrap(), volume, max_relative = 1e-9);
             assert_relative_eq!(found.volume, volume, max_relative = 1e-12);
@@ -462,7 +468,7 @@ mod tests {
             for r in [1e-5, 0.02, 1.0, 30.0] {
                 let exact =
                     2.0 * area * r + PI / 2.0 * perimeter * r * r + 4.0 / 3.0 * PI * r.powi(3);
-                let surface = Core::triangle(points).grown(r).unwrap();
+                let surface = Core::triangle(points).grown(r, FINE).unwrap();
                 let found = surface.volume_integrals();
                 // Products of vertices at the far end of a needle across all axes have lost (length/r)²
                 // of their digits.
@@ -479,6 +485,6 @@ mod tests {
         let mut core = Core::cuboid(Vector3::repeat(1.0));
         core.faces.pop();
         core.normals.pop();
-        assert!(matches!(core.grown(0.1), Err(Error::OpenMesh { .. })));
+        assert!(matches!(core.grown(0.1, FINE), Err(Error::OpenMesh { .. })));
     }
 }

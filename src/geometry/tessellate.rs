@@ -2,7 +2,7 @@
 
 use super::Surface;
 use super::revolution::{RoundBody, arc, revolve};
-use super::rounded::Core;
+use super::rounded::{Core, FINE};
 use super::voxels;
 use crate::error::Error;
 use crate::math::to_f64;
@@ -88,11 +88,11 @@ impl Surface {
                 let parts: Vec<_> = s.shapes().iter().map(|(p, s)| (*p, s.as_ref())).collect();
                 Self::of_parts(&parts, Self::from_shape)
             }
-            TypedShape::RoundCuboid(s) => Rounded::cuboid(s)?.surface(),
-            TypedShape::RoundCylinder(s) => Rounded::cylinder(s)?.surface(),
-            TypedShape::RoundCone(s) => Rounded::cone(s)?.surface(),
-            TypedShape::RoundConvexPolyhedron(s) => Rounded::polyhedron(s)?.surface(),
-            TypedShape::RoundTriangle(s) => Rounded::triangle(s)?.surface(),
+            TypedShape::RoundCuboid(_)
+            | TypedShape::RoundCylinder(_)
+            | TypedShape::RoundCone(_)
+            | TypedShape::RoundConvexPolyhedron(_)
+            | TypedShape::RoundTriangle(_) => rounded_surface(shape, FINE),
             TypedShape::HalfSpace(_) => none("half-space"),
             TypedShape::HeightField(_) => none("height field"),
             TypedShape::Polyline(_) => none("polyline"),
@@ -127,15 +127,17 @@ impl Surface {
 
 /// The volume of a shape with its rounded border, m³; `None` if it has no border.
 pub(crate) fn rounded_volume(shape: &dyn Shape) -> Result<Option<f64>, Error> {
-    let rounded = match shape.as_typed_shape() {
-        TypedShape::RoundCuboid(s) => Rounded::cuboid(s)?,
-        TypedShape::RoundCylinder(s) => Rounded::cylinder(s)?,
-        TypedShape::RoundCone(s) => Rounded::cone(s)?,
-        TypedShape::RoundConvexPolyhedron(s) => Rounded::polyhedron(s)?,
-        TypedShape::RoundTriangle(s) => Rounded::triangle(s)?,
-        _ => return Ok(None),
-    };
-    rounded.volume().map(Some)
+    let rounded = Rounded::of(shape)?;
+    rounded.map(|rounded| rounded.volume()).transpose()
+}
+
+/// The surface of a shape with a rounded border, the directions of its neighboring vertices at most `step`
+/// apart; that of any other shape as it is.
+pub(super) fn rounded_surface(shape: &dyn Shape, step: f64) -> Result<Surface, Error> {
+    match Rounded::of(shape)? {
+        Some(rounded) => rounded.surface(step),
+        None => Surface::from_shape(shape),
+    }
 }
 
 /// A shape grown by a border on all sides.
@@ -149,6 +151,17 @@ enum Rounded {
 }
 
 impl Rounded {
+    fn of(shape: &dyn Shape) -> Result<Option<Self>, Error> {
+        Ok(Some(match shape.as_typed_shape() {
+            TypedShape::RoundCuboid(s) => Self::cuboid(s)?,
+            TypedShape::RoundCylinder(s) => Self::cylinder(s)?,
+            TypedShape::RoundCone(s) => Self::cone(s)?,
+            TypedShape::RoundConvexPolyhedron(s) => Self::polyhedron(s)?,
+            TypedShape::RoundTriangle(s) => Self::triangle(s)?,
+            _ => return Ok(None),
+        }))
+    }
+
     fn cuboid(s: &RoundCuboid) -> Result<Self, Error> {
         let border = length_or_zero("border_radius", s.border_radius)?;
         let mut half = to_f64(s.inner_shape.half_extents);
@@ -200,11 +213,11 @@ impl Rounded {
         }
     }
 
-    fn surface(&self) -> Result<Surface, Error> {
+    fn surface(&self, step: f64) -> Result<Surface, Error> {
         match self {
             Self::Ball(r) => ball(*r),
             Self::Revolved(body) => body.surface(),
-            Self::Grown(core, border) => core.grown(*border),
+            Self::Grown(core, border) => core.grown(*border, step),
         }
     }
 }

@@ -2,9 +2,7 @@
 
 use super::held_motion;
 use super::mean_motion::MeanMotion;
-use super::stage_data::{
-    Disturbance, HeldStart, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
-};
+use super::stage_data::{HeldStart, SavedForces, SeenFlow, StepContext, StepInput, StepOutput};
 use super::workspace::{Batch, Workspace};
 use super::{constraint_impulse, contact_mass, energy_budget, locked_axes};
 use crate::body::from_rapier::inertia;
@@ -40,8 +38,9 @@ pub(super) struct Destination<'a> {
 
 /// Writes the outputs of a batch, and keeps what must be given back.
 pub(super) fn write_back(batch: &Batch, sets: &mut RapierSets, to: &mut Destination) {
+    let fluid_moves = !batch.flows.is_empty() || !batch.turbulence.is_empty();
     for (i, (input, output)) in batch.inputs.iter().zip(&batch.outputs).enumerate() {
-        if let Some(state) = to.registry.at_mut(input.state as usize) {
+        if fluid_moves && let Some(state) = to.registry.at_mut(input.state as usize) {
             if let Some(flow) = batch.flows.get(i) {
                 state.flight.fluid_velocity = vector(flow.velocity);
             }
@@ -49,21 +48,18 @@ pub(super) fn write_back(batch: &Batch, sets: &mut RapierSets, to: &mut Destinat
                 state.flight.turbulence = *turbulence;
             }
         }
-        let still = |flow: &SeenFlow| flow.change == Row::default();
-        let steady = batch.flows.get(i).is_none_or(still);
-        let disturbance = batch.disturbances.get(input.disturbance as usize);
-        if let Some(saved) = write_body(input, output, disturbance, steady, sets, to) {
+        if let Some(saved) = write_body(input, output, (batch, i), sets, to) {
             to.saved_forces.push(saved);
         }
     }
 }
 
-/// Writes what the step shall do to one body.
+/// Writes what the step shall do to one body, the one at an index of its batch.
+#[inline(always)]
 fn write_body(
     input: &StepInput,
     output: &StepOutput,
-    disturbance: Option<&Disturbance>,
-    steady: bool,
+    (batch, index): (&Batch, usize),
     sets: &mut RapierSets,
     to: &mut Destination,
 ) -> Option<SavedForces> {
@@ -100,6 +96,8 @@ fn write_body(
     let jointed = input.system != NONE;
     let mut motion = None;
     if !input.free || jointed || input.locked {
+        let still = |flow: &SeenFlow| flow.change == Row::default();
+        let disturbance = batch.disturbances.get(input.disturbance as usize);
         let held = Held {
             shared,
             input,
@@ -107,7 +105,7 @@ fn write_body(
             impulse: disturbance.map_or(Vector::ZERO, |d| vector(d.impulse)),
             user_force: saved.force,
             user_torque: saved.torque,
-            steady,
+            steady: batch.flows.get(index).is_none_or(still),
             context: to.context,
         };
         let mut start = held.start(body, flight, force);

@@ -55,7 +55,7 @@ fn of_parts(
         let mesh = |level| Surface::of_parts(parts, |s| Surface::panelled(s, cells(level)));
         BoundaryElementSolution::of_meshes(mesh, &params, no_progress)?
     } else {
-        let surface = Surface::of_parts(parts, Surface::from_shape)?;
+        let surface = Surface::of_parts(parts, Surface::panelled_as_is)?;
         BoundaryElementSolution::of_surface(&surface, &params, no_progress)?
     };
     let about = solution.added_mass.about(reference - solution.center);

@@ -77,7 +77,7 @@ impl BoundaryElementSolution {
     ) -> Result<Self, Error> {
         params.check()?;
         if !Surface::follows_cells(shape) {
-            return Self::of_surface(&Surface::from_shape(shape)?, params, progress);
+            return Self::of_surface(&Surface::panelled_as_is(shape)?, params, progress);
         }
         let mesh = |level| Surface::panelled(shape, cells(level));
         Self::of_meshes(mesh, params, progress)
