@@ -52,7 +52,7 @@ type Context<'w, 's> = Single<
     (
         &'static RapierContextSimulation,
         &'static mut RapierContextColliders,
-        &'static RapierContextJoints,
+        &'static mut RapierContextJoints,
         &'static mut RapierRigidBodySet,
         &'static RapierConfiguration,
     ),
@@ -113,7 +113,7 @@ fn after_step(
 
 /// Shows the context's parts as [`RapierSets`], if bevy_rapier steps them now.
 fn step(context: Context, timestep: TimestepMode, visit: impl FnOnce(&mut RapierSets)) {
-    let (simulation, mut colliders, joints, mut bodies, configuration) = context.into_inner();
+    let (simulation, mut colliders, mut joints, mut bodies, configuration) = context.into_inner();
     let TimestepMode::Fixed { dt, substeps: 1 } = timestep else {
         warn_once!("immersed bodies need TimestepMode::Fixed with one substep");
         return;
@@ -126,6 +126,7 @@ fn step(context: Context, timestep: TimestepMode, visit: impl FnOnce(&mut Rapier
         dt,
         ..simulation.integration_parameters
     };
+    let joints = &mut *joints;
     visit(&mut RapierSets {
         gravity: configuration.gravity,
         integration_parameters: &integration_parameters,
@@ -134,6 +135,6 @@ fn step(context: Context, timestep: TimestepMode, visit: impl FnOnce(&mut Rapier
         bodies: &mut bodies.bodies,
         colliders: &mut colliders.colliders,
         impulse_joints: &joints.impulse_joints,
-        multibody_joints: &joints.multibody_joints,
+        multibody_joints: &mut joints.multibody_joints,
     });
 }
