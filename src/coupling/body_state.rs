@@ -119,12 +119,17 @@ pub(super) struct FlightState {
 }
 
 impl FlightState {
-    /// Forgets what held the body.
-    pub fn let_go(&mut self) {
+    /// Forgets what its joints did.
+    pub fn forget_joints(&mut self) {
         self.constraint_impulse = Vector::ZERO;
         self.constraint_time = 0.0;
         self.constraint_turns = false;
         self.constraint_turn = Vector::ZERO;
+    }
+
+    /// Forgets what held the body.
+    pub fn let_go(&mut self) {
+        self.forget_joints();
         self.fluid_force = Vector::ZERO;
         self.energy_reserve = 0.0;
         self.contact_steps = 0;

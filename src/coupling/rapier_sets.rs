@@ -60,22 +60,17 @@ impl<'a> RapierSets<'a> {
 
     /// The velocities of a link of a multibody, m/s at its center of mass and rad/s. Those that rapier's body
     /// reads after a step are of one substep before.
-    /// Zero before the first step.
-    pub(super) fn link_velocities(&self, handle: RigidBodyHandle) -> (Vector, Vector) {
-        let nothing = (Vector::ZERO, Vector::ZERO);
-        let Some(id) = self.multibody_joints.rigid_body_link(handle) else {
-            return nothing;
-        };
-        let Some(multibody) = self.multibody_joints.get_multibody(id.multibody) else {
-            return nothing;
-        };
+    /// Zero before the first step; `None` if the body is no link.
+    pub(super) fn link_velocities(&self, handle: RigidBodyHandle) -> Option<(Vector, Vector)> {
+        let id = self.multibody_joints.rigid_body_link(handle)?;
+        let multibody = self.multibody_joints.get_multibody(id.multibody)?;
         let jacobian = multibody.body_jacobian(id.id);
         let velocity = multibody.generalized_velocity();
         if jacobian.ncols() != velocity.len() {
-            return nothing;
+            return Some((Vector::ZERO, Vector::ZERO));
         }
         let v = jacobian * velocity;
-        (Vector::new(v[0], v[1], v[2]), Vector::new(v[3], v[4], v[5]))
+        Some((Vector::new(v[0], v[1], v[2]), Vector::new(v[3], v[4], v[5])))
     }
 
     /// Multiplies the velocities of a multibody relative to `still` by a factor, once: for the first of its

@@ -48,6 +48,9 @@ const OPEN: Real = 0.25;
 const SHORT: Real = 1e-5;
 /// Turn in a step, rad, after which the last impulse says nothing about the next.
 const FAR: Real = 1.0;
+/// How many times longer than the last a step may be for its joints to be counted on in proportion: rounding
+/// grows as much.
+const LONGER: Real = 20.0;
 /// Turn in a step, rad, below which it does not matter whether the impulse turns with the body.
 const NEAR: Real = 0.02;
 
@@ -75,8 +78,7 @@ pub(super) fn is_slack(shared: &SharedConstants, body: &RigidBody, flight: &Flig
             <= SLACK * turning
 }
 
-/// The impulse that the coming step counts on. After a longer step the impulse is that of a shorter time; after
-/// a shorter one it is not blown up, since rounding of tiny steps would be as well. It turns with the body
+/// The impulse that the coming step counts on, in proportion to its time. It turns with the body
 /// where that was the better guess for the last step, as on a wheel, and not on a rope. A body that turns far
 /// in a step and whose joint does not turn with it will be pushed in another direction: nothing is expected
 /// then.
@@ -85,10 +87,10 @@ pub(super) fn of_step(flight: &FlightState, angular: Vector, dt: Real) -> Vector
         return Vector::ZERO;
     }
     let turn = angular.length() * dt;
-    let share = if flight.constraint_time > dt {
-        dt / flight.constraint_time
+    let share = if flight.constraint_time > 0.0 {
+        (dt / flight.constraint_time).min(LONGER)
     } else {
-        1.0
+        0.0
     };
     if turn < NEAR {
         flight.constraint_impulse * share
@@ -114,12 +116,14 @@ pub(super) struct Learnt {
 }
 
 /// Learns from rapier's step what the joints of a body did, and sets its velocity right where they have
-/// opened.
+/// opened. Of a body that is `touched` by others nothing can be learnt: in water a plate that slides has a
+/// multiple of its mass across the slide, and what a contact does would be counted on as the joint's.
 pub(super) fn learn(
     shared: &SharedConstants,
     body: &mut RigidBody,
     flight: &mut FlightState,
     start: &HeldStart,
+    touched: bool,
     dt: Real,
 ) -> Learnt {
     let locked = locked_axes::linear(start.locks);
@@ -135,7 +139,10 @@ pub(super) fn learn(
     let impulse = expected + surprise;
     let turned = body.angvel() * (1.0 + dt * body.angular_damping());
     let turn = turned - start.angular - start.expected_turn;
-    if dt < SHORT {
+    if touched {
+        flight.forget_joints();
+    }
+    if touched || dt < SHORT {
         return Learnt { impulse, turn };
     }
     let mean_turn = (start.angular + body.angvel()) * (0.5 * dt);

@@ -74,6 +74,15 @@ pub(super) fn for_each_pair<'a>(
     }
 }
 
+/// Whether contacts acted on a body in the last step.
+pub(super) fn is_touched(body: &RigidBody, narrow_phase: &NarrowPhase) -> bool {
+    let mut touched = false;
+    for_each_pair(body, narrow_phase, |_, pair| {
+        touched |= pair.has_any_active_contact();
+    });
+    touched
+}
+
 /// The normal of the contacts that the body has or is about to have, weighted by their impulses;
 /// `None` if it touches nothing.
 ///

@@ -136,7 +136,7 @@ impl JointedSystems {
                     let springs = (0..6).any(|axis| joint.spring(axis).0 != 0.0);
                     self.mark(own, |kind| {
                         kind.linked = true;
-                        kind.driven |= springs || !joint.data.motor_axes.is_empty();
+                        kind.driven |= springs || !only_brakes(&joint.data);
                     });
                 }
             }
@@ -203,7 +203,7 @@ impl JointedSystems {
             return End::Still;
         };
         if !body.is_dynamic() {
-            let still = body.is_fixed() || stands_still(body);
+            let still = body.is_fixed() || (is_at_rest(body) && stays(body));
             return if still { End::Still } else { End::Foreign };
         }
         if body.is_sleeping() {
@@ -259,7 +259,7 @@ impl JointedSystems {
         ends: [End; 2],
         sets: &RapierSets,
     ) {
-        if joint.data.motor_axes.is_empty() {
+        if only_brakes(&joint.data) {
             return;
         }
         let dt = sets.integration_parameters.dt;
@@ -287,8 +287,20 @@ impl JointedSystems {
     }
 }
 
-fn stands_still(body: &RigidBody) -> bool {
+fn is_at_rest(body: &RigidBody) -> bool {
     body.linvel().length_squared() + body.angvel().length_squared() == 0.0
+}
+
+/// Whether the coming step leaves a kinematic body where it is.
+fn stays(body: &RigidBody) -> bool {
+    body.next_position() == body.position()
+}
+
+/// Whether all motors of a joint only brake.
+fn only_brakes(joint: &GenericJoint) -> bool {
+    let motors = joint.motors.iter().enumerate();
+    let mut on = motors.filter(|(axis, _)| joint.motor_axes.bits() >> axis & 1 == 1);
+    on.all(|(_, motor)| motor.stiffness == 0.0 && motor.target_vel == 0.0 && motor.damping >= 0.0)
 }
 
 /// Whether a joint's motor is a spring along the line between its anchors, as

@@ -126,7 +126,7 @@ pub(super) fn prepare(
     let continues = free && !locked && continues(flight, body, rapier_attitude);
     let (linear, angular) = if linked {
         // What a user has set is not what rapier's multibody moves by.
-        sets.link_velocities(handle)
+        sets.link_velocities(handle)?
     } else {
         (body.linvel(), body.angvel())
     };
@@ -141,6 +141,11 @@ pub(super) fn prepare(
         (linear, angular)
     };
     let impulse = match normal {
+        // Where something is touched as well, what the joints did cannot be told from what that did.
+        Some(_) if jointed => {
+            flight.forget_joints();
+            Vector::ZERO
+        }
         _ if joints.is_some_and(|joints| joints.unresolved) => Vector::ZERO,
         _ if jointed => constraint_impulse::of_step(flight, angular, dt),
         Some(normal) => {

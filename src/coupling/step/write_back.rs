@@ -351,7 +351,7 @@ pub(super) fn finish(
     };
     if let Some(start) = workspace.jointed.starts.get(saved.held as usize) {
         if start.linked
-            && let (linear, angular) = sets.link_velocities(saved.handle)
+            && let Some((linear, angular)) = sets.link_velocities(saved.handle)
             && let Some(body) = sets.bodies.get_mut(saved.handle)
         {
             body.set_linvel(linear, false);
@@ -362,7 +362,11 @@ pub(super) fn finish(
         };
         let dt = sets.integration_parameters.dt;
         let flight = &mut state.flight;
-        let did = constraint_impulse::learn(shared, body, flight, start, dt);
+        let touched = contact_mass::is_touched(body, sets.narrow_phase);
+        if touched {
+            workspace.jointed.systems.drive(start.system);
+        }
+        let did = constraint_impulse::learn(shared, body, flight, start, touched, dt);
         // A body that flew the whole step has the energy that was integrated.
         if !(start.flies && did.impulse == Vector::ZERO) {
             let (_, kind) = workspace.jointed.systems.system(start.system);

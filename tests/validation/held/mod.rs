@@ -7,4 +7,5 @@ mod friction;
 mod joints;
 mod locked;
 mod swing;
+mod touching;
 mod windmill;
