@@ -44,7 +44,7 @@ const SLACK: Real = 1e-5;
 const ROUNDING: Real = 1e-6;
 /// Part of the expected impulse below which a constraint counts as open.
 const OPEN: Real = 0.25;
-/// Step from which nothing is learnt, s: its impulse is a rounding error.
+/// Step below which nothing is learnt, s: its impulse is a rounding error.
 const SHORT: Real = 1e-5;
 /// Turn in a step, rad, after which the last impulse says nothing about the next.
 const FAR: Real = 1.0;
