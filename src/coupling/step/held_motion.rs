@@ -1,5 +1,5 @@
-//! The velocities that a body shall have after a step in which something holds it, but touches it not:
-//! joints or locked axes.
+//! The velocities that a body shall have after a step in which joints hold it, with locked axes or without.
+//! (What locked axes alone hold is moved by its mean velocity, see [`mean_motion`](super::mean_motion).)
 //!
 //! Such a body gets a force and a torque alone; rapier's n substeps then turn it by Cayley maps of a
 //! velocity that grows evenly, so that it reaches another attitude R' than the integrator's R (by

@@ -1,7 +1,7 @@
 //! Systems of bodies that joints connect, found anew in each step.
 //!
-//! Joints without motors only pass energy on, between the bodies of a system, so that what a system has is
-//! known where the share of one body is not (see [`energy_budget`](super::energy_budget)).
+//! Joints without motors, or with such as only brake, pass energy on between the bodies of a system and add
+//! none, so that what a system has is known where the share of one body is not (see [`energy_budget`](super::energy_budget)).
 
 use crate::coupling::body_state::NONE;
 use crate::coupling::rapier_sets::RapierSets;
