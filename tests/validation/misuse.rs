@@ -31,6 +31,34 @@ fn a_step_that_is_never_finished() {
     assert_eq!(world.bodies[handle].user_force(), force);
 }
 
+/// A body that spins far in a step, or that locks alone hold, is moved by its mean velocity: it has that of the
+/// step's end all the same where `after_step` never comes.
+#[test]
+fn velocities_of_a_step_that_is_never_finished() {
+    let fall = |finish: bool, locks: LockedAxes| {
+        let mut world = PhysicsWorld::new();
+        let (handle, hydro) = leaf(&mut world);
+        world.bodies[handle].set_locked_axes(locks, true);
+        world.bodies[handle].set_angvel(Vector::new(0.0, 200.0, 0.0), true);
+        let mut immersion = Immersion::new(Fluid::AIR);
+        immersion.insert(handle, hydro);
+        for _ in 0..20 {
+            immersion.before_step(&mut RapierSets::of(&mut world));
+            world.step();
+            if finish {
+                immersion.after_step(&mut RapierSets::of(&mut world));
+            }
+        }
+        immersion.before_step(&mut RapierSets::of(&mut world));
+        immersion.after_step(&mut RapierSets::of(&mut world));
+        let body = &world.bodies[handle];
+        (*body.position(), body.linvel(), body.angvel())
+    };
+    for locks in [LockedAxes::empty(), LockedAxes::TRANSLATION_LOCKED_X] {
+        assert_eq!(fall(true, locks), fall(false, locks), "{locks:?}");
+    }
+}
+
 /// The set is changed between `before_step` and `after_step`, as a handler of collisions may: another fluid,
 /// another description, the body gone and another in its place. A leaf lies on a floor meanwhile, so that
 /// there are contacts to correct.

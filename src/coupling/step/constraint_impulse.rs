@@ -28,9 +28,13 @@
 //! with Δv = (𝕄⁻¹ − 1/m_s)Ĵ too much, for the force took Ĵ off through m_s and the integrator put it on
 //! through 𝕄. It is taken back after the step, `v += (𝕄⁻¹ − 1/m_s)(J − Ĵ)`.
 //!
-//! Only linear impulses are treated so; the same for moments pumps energy into light bodies at levers.
+//! Moments are counted on likewise: a wing on a rail or a keel on a boat is held against the Munk moment all the
+//! time, and would turn in each prediction and be braked by what it does not do (a plate on a slider in an ideal
+//! fluid stopped at .7 m/s, a wing on a cart lost two thirds of its speed in 5 s at 60 Hz). Rapier's inertia
+//! is that of body and fluid, so that all of a surprise is learnt. What energy the prediction brings about at
+//! long levers, [`energy_budget`](super::energy_budget) takes away.
 
-use super::stage_data::HeldStart;
+use super::stage_data::{HeldStart, JointAction};
 use super::{contact_mass, held_motion, locked_axes};
 use crate::coupling::body_state::FlightState;
 use crate::coupling::shared_constants::SharedConstants;
@@ -51,6 +55,8 @@ const FAR: Real = 1.0;
 /// How many times longer than the last a step may be for its joints to be counted on in proportion: rounding
 /// grows as much.
 const LONGER: Real = 20.0;
+/// Turn in a step, rad, from which on the moments of joints are not counted on.
+const STEADY: Real = 0.05;
 /// Turn in a step, rad, below which it does not matter whether the impulse turns with the body.
 const NEAR: Real = 0.02;
 
@@ -78,41 +84,30 @@ pub(super) fn is_slack(shared: &SharedConstants, body: &RigidBody, flight: &Flig
             <= SLACK * turning
 }
 
-/// The impulse that the coming step counts on, in proportion to its time. It turns with the body
-/// where that was the better guess for the last step, as on a wheel, and not on a rope. A body that turns far
-/// in a step and whose joint does not turn with it will be pushed in another direction: nothing is expected
-/// then.
-pub(super) fn of_step(flight: &FlightState, angular: Vector, dt: Real) -> Vector {
-    if dt < SHORT {
-        return Vector::ZERO;
-    }
+/// What the coming step counts on, in proportion to its time. It turns with the body where that was the better
+/// guess for the last step, as on a wheel, and not on a rope. A body that turns far in a step and whose joint
+/// does not turn with it will be pushed in another direction: nothing is expected then.
+pub(super) fn of_step(flight: &FlightState, angular: Vector, dt: Real) -> JointAction {
     let turn = angular.length() * dt;
-    let share = if flight.constraint_time > 0.0 {
-        (dt / flight.constraint_time).min(LONGER)
-    } else {
-        0.0
-    };
-    if turn < NEAR {
-        flight.constraint_impulse * share
-    } else if flight.constraint_turns {
-        turned_by(flight.constraint_impulse, angular * dt) * share
-    } else if turn < FAR {
-        flight.constraint_impulse * share
-    } else {
-        Vector::ZERO
+    if dt < SHORT || flight.constraint_time <= 0.0 || (turn >= FAR && !flight.constraint_turns) {
+        return JointAction::default();
     }
+    let share = (dt / flight.constraint_time).min(LONGER);
+    let mut action = JointAction {
+        impulse: flight.constraint_impulse * share,
+        turn: flight.constraint_turn * (share * (1.0 - turn / STEADY).max(0.0)),
+    };
+    if turn >= NEAR && flight.constraint_turns {
+        let attitude = Rotation::from_scaled_axis(angular * dt);
+        action.impulse = attitude * action.impulse;
+        action.turn = attitude * action.turn;
+    }
+    action
 }
 
 /// A vector turned by a rotation vector.
 fn turned_by(v: Vector, turn: Vector) -> Vector {
     Rotation::from_scaled_axis(turn) * v
-}
-
-/// What the joints of a body did in a step: impulse, N·s, and change of the angular velocity, rad/s; world axes.
-#[derive(Clone, Copy)]
-pub(super) struct Learnt {
-    pub impulse: Vector,
-    pub turn: Vector,
 }
 
 /// Learns from rapier's step what the joints of a body did, and sets its velocity right where they have
@@ -125,7 +120,7 @@ pub(super) fn learn(
     start: &HeldStart,
     touched: bool,
     dt: Real,
-) -> Learnt {
+) -> JointAction {
     let locked = locked_axes::linear(start.locks);
     let undamped = body.linvel() * (1.0 + dt * body.linear_damping());
     let mut surprise = undamped - start.linear - start.expected_change;
@@ -135,15 +130,15 @@ pub(super) fn learn(
     }
     let solver_mass = flight.solver_mass;
     let surprise = surprise * solver_mass * (Vector::ONE - vector(locked));
-    let expected = start.impulse;
+    let expected = start.expected.impulse;
     let impulse = expected + surprise;
     let turned = body.angvel() * (1.0 + dt * body.angular_damping());
-    let turn = turned - start.angular - start.expected_turn;
+    let turn = turned - start.angular - start.expected_turn + start.expected.turn;
     if touched {
         flight.forget_joints();
     }
     if touched || dt < SHORT {
-        return Learnt { impulse, turn };
+        return JointAction { impulse, turn };
     }
     let mean_turn = (start.angular + body.angvel()) * (0.5 * dt);
     if mean_turn.length_squared() > NEAR * NEAR {
@@ -156,7 +151,11 @@ pub(super) fn learn(
     let opened =
         expected != Vector::ZERO && impulse.dot(expected) < OPEN * expected.length_squared();
     flight.constraint_time = dt;
-    flight.constraint_turn = turn;
+    flight.constraint_turn = if start.learns_turn {
+        turn
+    } else {
+        Vector::ZERO
+    };
     if opened {
         let right = masses.scale(attitude, surprise, |mass| 1.0 / mass - 1.0 / solver_mass);
         if !start.linked {
@@ -171,5 +170,5 @@ pub(super) fn learn(
         flight.constraint_impulse = Vector::ZERO;
         flight.constraint_turn = Vector::ZERO;
     }
-    Learnt { impulse, turn }
+    JointAction { impulse, turn }
 }

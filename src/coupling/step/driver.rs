@@ -171,12 +171,15 @@ fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, contex
     batch.clear();
 }
 
-/// Gives users' forces back where a step was begun and never finished; whether that was so.
+/// Gives users' forces back where a step was begun and never finished, and bodies that were moved by their mean
+/// velocity that of the step's end; whether there were any.
 pub(in crate::coupling) fn give_back(parts: &mut StepParts, sets: &mut RapierSets) -> bool {
-    let unfinished = !parts.workspace.saved_forces.is_empty();
-    for saved in parts.workspace.saved_forces.drain(..) {
-        write_back::give_back(&saved, sets.bodies);
+    let workspace = &mut *parts.workspace;
+    let unfinished = !workspace.saved_forces.is_empty();
+    for saved in &workspace.saved_forces {
+        write_back::give_back(saved, &workspace.moved_by_mean, sets.bodies);
     }
+    workspace.forget_bodies();
     unfinished
 }
 

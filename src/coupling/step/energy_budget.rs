@@ -29,10 +29,9 @@
 //! turns damp nothing; up to a quarter where a spring swings, whose energy a step of a tenth of its period
 //! changes by so much within the swing.
 
-use super::constraint_impulse::Learnt;
 use super::held_motion;
 use super::jointed_systems::{JointedSystems, SystemKind, spring_energy};
-use super::stage_data::{HeldEnd, HeldStart};
+use super::stage_data::{HeldEnd, HeldStart, JointAction};
 use crate::coupling::body_state::BodyState;
 use crate::coupling::rapier_sets::{RapierSets, scaled};
 use crate::coupling::registry::Registry;
@@ -97,7 +96,7 @@ pub(super) fn measure(
     body: &RigidBody,
     start: &HeldStart,
     number: u32,
-    did: &Learnt,
+    did: &JointAction,
     driven: bool,
     dt: Real,
 ) -> HeldEnd {
@@ -110,7 +109,13 @@ pub(super) fn measure(
         energy_at(shared, start.attitude, before, start.angular) + loads * dt
     } else {
         let integrated = kinetic_energy(shared, start.own_linear, start.own_angular);
-        integrated - start.impulse.dot(before + start.expected_change * 0.5)
+        let moment = held_motion::turned(shared, start.attitude, start.expected.turn);
+        integrated
+            - start
+                .expected
+                .impulse
+                .dot(before + start.expected_change * 0.5)
+            - moment.dot(start.angular + start.expected_turn * 0.5)
     };
     HeldEnd {
         start: number,

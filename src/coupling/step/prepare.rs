@@ -2,9 +2,9 @@
 
 use super::contact_mass::CloseBodies;
 use super::jointed_systems::JointedSystems;
-use super::stage_data::{Disturbance, SeenFlow, StepContext, StepInput};
+use super::stage_data::{Disturbance, JointAction, SeenFlow, StepContext, StepInput};
 use super::workspace::Batch;
-use super::{constraint_impulse, contact_mass, friction};
+use super::{constraint_impulse, contact_mass, friction, held_motion};
 use crate::coupling::body_state::{FlightState, IntegratorState, NONE};
 use crate::coupling::control::SeriesTable;
 use crate::coupling::environment::Environment;
@@ -140,21 +140,29 @@ pub(super) fn prepare(
         flight.motion = IntegratorState::at(rapier_attitude);
         (linear, angular)
     };
-    let impulse = match normal {
+    let expected = match normal {
         // Where something is touched as well, what the joints did cannot be told from what that did.
         Some(_) if jointed => {
             flight.forget_joints();
-            Vector::ZERO
+            JointAction::default()
         }
-        _ if joints.is_some_and(|joints| joints.unresolved) => Vector::ZERO,
+        _ if joints.is_some_and(|joints| joints.unresolved) => JointAction::default(),
         _ if jointed => constraint_impulse::of_step(flight, angular, dt),
         Some(normal) => {
-            let expected = friction::expected(shared, body, flight, normal, solver_mass, sets);
-            flight.constraint_impulse = expected;
+            let impulse = friction::expected(shared, body, flight, normal, solver_mass, sets);
+            flight.constraint_impulse = impulse;
             flight.constraint_time = dt;
-            expected
+            JointAction {
+                impulse,
+                ..JointAction::default()
+            }
         }
-        None => Vector::ZERO,
+        None => JointAction::default(),
+    };
+    let moment = if expected.turn == Vector::ZERO {
+        torque
+    } else {
+        torque + held_motion::turned(shared, *body.rotation(), expected.turn) / dt
     };
     let undisturbed =
         continues && [change_linear, change_angular, force, torque] == [Vector::ZERO; 4];
@@ -169,9 +177,9 @@ pub(super) fn prepare(
         batch.disturbances.push(Disturbance {
             linear: row(change_linear),
             angular: row(change_angular),
-            force: row(force + impulse / dt),
-            torque: row(torque),
-            impulse: row(impulse),
+            force: row(force + expected.impulse / dt),
+            torque: row(moment),
+            expected,
         });
         batch.disturbances.len() as u32 - 1
     };
@@ -200,7 +208,7 @@ pub(super) fn prepare(
         factors: state.control.factors,
         gravity_scale: body.gravity_scale(),
         disturbance,
-        has_torque: torque != Vector::ZERO,
+        has_torque: moment != Vector::ZERO,
         rapier_attitude: rapier_attitude.to_array(),
         rapier_linear: row(linear),
         rapier_angular: row(angular),

@@ -81,6 +81,14 @@ pub(in crate::coupling) struct StepInput {
     pub rapier_angular: Row,
 }
 
+/// What the constraints of a body did in a step, or are expected to do: impulse, N·s, and change of the angular
+/// velocity, rad/s; world axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::coupling) struct JointAction {
+    pub impulse: Vector,
+    pub turn: Vector,
+}
+
 /// What acts on a body besides fluid and gravity. Most bodies have none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::coupling) struct Disturbance {
@@ -88,11 +96,11 @@ pub(in crate::coupling) struct Disturbance {
     /// its velocity. m/s and rad/s.
     pub linear: Row,
     pub angular: Row,
-    /// User's force, with that of the constraints as far as the step counts on it, N, and torque, N·m.
+    /// User's force, N, and torque, N·m, with those of the constraints as far as the step counts on them.
     pub force: Row,
     pub torque: Row,
-    /// Impulse of the constraints that the step counts on, N·s.
-    pub impulse: Row,
+    /// What the step counts on the constraints for.
+    pub expected: JointAction,
 }
 
 impl Disturbance {
@@ -101,7 +109,10 @@ impl Disturbance {
         angular: [0.0; 4],
         force: [0.0; 4],
         torque: [0.0; 4],
-        impulse: [0.0; 4],
+        expected: JointAction {
+            impulse: Vector::ZERO,
+            turn: Vector::ZERO,
+        },
     };
 }
 
@@ -189,8 +200,8 @@ pub(in crate::coupling) struct HeldStart {
     /// Changes of the velocities that rapier will cause if the constraints do as expected.
     pub expected_change: Vector,
     pub expected_turn: Vector,
-    /// The impulse that is expected of them, N·s.
-    pub impulse: Vector,
+    /// What is expected of them.
+    pub expected: JointAction,
     /// Velocities that were integrated, plate axes, relative to the fluid.
     pub own_linear: Vector,
     pub own_angular: Vector,
@@ -205,6 +216,9 @@ pub(in crate::coupling) struct HeldStart {
     pub load_torque: Vector,
     /// Whether the fluid's velocity is that of the last step.
     pub steady: bool,
+    /// Whether its joints are counted on to turn it: with locked axes, or where a link turns far, what they did
+    /// cannot be told from the rest.
+    pub learns_turn: bool,
     /// Whether it is a link of a multibody, which gets its velocity from that.
     pub linked: bool,
 }

@@ -2,7 +2,9 @@
 
 use super::held_motion;
 use super::mean_motion::MeanMotion;
-use super::stage_data::{HeldStart, SavedForces, SeenFlow, StepContext, StepInput, StepOutput};
+use super::stage_data::{
+    HeldStart, JointAction, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
+};
 use super::workspace::{Batch, Workspace};
 use super::{constraint_impulse, contact_mass, energy_budget, locked_axes};
 use crate::body::from_rapier::inertia;
@@ -22,6 +24,8 @@ const IMPACT: u8 = 3;
 
 /// Turn of a multibody's link in a step, rad, from which on the fluid may only brake it.
 const FAST_LINK: f32 = 0.5;
+/// The same from which on its joints are not counted on to turn it.
+const STEADY_LINK: f32 = 0.1;
 
 /// Speed above which the motion of a body is not followed, m/s: the integrator's limit.
 const MOST_SPEED: f32 = 1e6;
@@ -102,7 +106,7 @@ fn write_body(
             shared,
             input,
             output,
-            impulse: disturbance.map_or(Vector::ZERO, |d| vector(d.impulse)),
+            expected: disturbance.map_or(JointAction::default(), |d| d.expected),
             user_force: saved.force,
             user_torque: saved.torque,
             steady: batch.flows.get(index).is_none_or(still),
@@ -179,8 +183,8 @@ struct Held<'a> {
     shared: &'a SharedConstants,
     input: &'a StepInput,
     output: &'a StepOutput,
-    /// What the constraints are expected to do, N·s.
-    impulse: Vector,
+    /// What the constraints are expected to do.
+    expected: JointAction,
     user_force: Vector,
     user_torque: Vector,
     /// Whether the fluid's velocity is that of the last step.
@@ -206,7 +210,7 @@ impl Held<'_> {
             angular,
             expected_change: (force / input.solver_mass + gravity) * self.context.dt,
             expected_turn: Vector::ZERO,
-            impulse: self.impulse,
+            expected: self.expected,
             own_linear: output.motion.linear,
             own_angular: output.motion.angular * self.shared.step.inertia.per_length,
             fluid_velocity: flight.fluid_velocity,
@@ -216,6 +220,7 @@ impl Held<'_> {
             load_force: self.user_force + gravity * (dry_mass - displaced) as f32,
             load_torque: self.user_torque + arm.cross(gravity * -displaced as f32),
             steady: self.steady,
+            learns_turn: input.locks.is_empty(),
             linked: input.linked,
         };
         if input.free {
@@ -247,6 +252,9 @@ impl Held<'_> {
             let change = held_motion::turned(shared, end, vector(self.output.end_angular))
                 - held_motion::turned(shared, attitude, angular);
             torque = change / dt;
+            let end = vector(self.output.end_angular);
+            start.expected_turn = end - angular;
+            start.learns_turn &= start.angular.length().max(end.length()) * dt < STEADY_LINK;
             (force, torque) = self.tamed(start, force, torque);
         } else if !input.in_contact || !input.locks.is_empty() {
             let plate = Rotation::from_array(input.rapier_attitude);
@@ -271,9 +279,12 @@ impl Held<'_> {
             let own = body.user_force() + gravity * shared.constants.dry.mass as f32;
             let masses = &shared.principal_mass;
             let change = masses.scale(attitude, start.expected_change, |mass| mass);
-            flight.fluid_force = (change - self.impulse) / dt - own;
+            flight.fluid_force = (change - self.expected.impulse) / dt - own;
         }
-        force -= self.impulse / dt;
+        force -= self.expected.impulse / dt;
+        if self.expected.turn != Vector::ZERO {
+            torque -= held_motion::turned(shared, attitude, self.expected.turn) / dt;
+        }
         (force, torque)
     }
 
@@ -329,11 +340,8 @@ pub(super) fn finish(
     let Some(saved) = workspace.saved_forces.get(number) else {
         return;
     };
-    let Some(body) = give_back(saved, sets.bodies) else {
+    if give_back(saved, &workspace.moved_by_mean, sets.bodies).is_none() {
         return;
-    };
-    if let Some(motion) = workspace.moved_by_mean.get(saved.mean_motion as usize) {
-        motion.finish(body);
     }
     if saved.held == NONE && !saved.touching {
         return;
@@ -391,14 +399,19 @@ pub(super) fn finish(
     }
 }
 
-/// Gives a body's forces back to the user.
-pub(super) fn give_back<'a>(
+/// Gives a body's forces back to the user, and its velocity at the end of the step to one that was moved by its
+/// mean velocity. `None` if it has gone.
+pub(super) fn give_back(
     saved: &SavedForces,
-    bodies: &'a mut RigidBodySet,
-) -> Option<&'a mut RigidBody> {
+    moved_by_mean: &[MeanMotion],
+    bodies: &mut RigidBodySet,
+) -> Option<()> {
     let body = bodies.get_mut(saved.handle)?;
     replace_forces(body, saved.force, saved.torque);
-    Some(body)
+    if let Some(motion) = moved_by_mean.get(saved.mean_motion as usize) {
+        motion.finish(body);
+    }
+    Some(())
 }
 
 fn replace_forces(body: &mut RigidBody, force: Vector, torque: Vector) {

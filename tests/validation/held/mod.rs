@@ -6,6 +6,7 @@ mod extremes;
 mod friction;
 mod joints;
 mod locked;
+mod moments;
 mod swing;
 mod touching;
 mod windmill;

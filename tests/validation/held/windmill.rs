@@ -137,7 +137,8 @@ impl Windmill {
 /// tangent, which costs ω²h/2 of the speed per second. Under plain rapier, the law's force and torque added
 /// by hand, the wheel of light blades loses 21 %, 6 % and 2 % at 60, 240 and 1000 Hz, that of blades five
 /// times as heavy 45 %, 22 % and 7 %. In the fluid it is 26 %, 7 % and 3 %, and 21 %, 17 % and 5 %: no more
-/// than a quarter above plain rapier's and 2 % for moments, which no step counts on. (Blades much heavier than their hub tear rapier's joints apart.)
+/// than a quarter above plain rapier's and 2 % for moments, which no step counts on where a body turns by more than
+/// 0.05 rad. (Blades much heavier than their hub tear rapier's joints apart.)
 #[test]
 fn a_windmill_reaches_the_rate_without_moment() {
     for hz in [60.0, 240.0, 1000.0] {
