@@ -1,6 +1,6 @@
 //! Bodies on ropes and pivots, against their equations.
 
-use rapier3d_immersed::flow::Uniform;
+use rapier3d_immersed::flow::{Flow, Uniform};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, ViscousLaw};
 use std::f64::consts::TAU;
@@ -57,6 +57,58 @@ fn pendulum_under_water() {
             );
         }
     }
+}
+
+/// A fluid that hardly moves, and never twice alike.
+struct Trembling;
+
+impl Flow for Trembling {
+    fn velocity(&self, _point: Vector, time: f64) -> Vector {
+        Vector::X * (1e-5 * (700.0 * time).sin()) as Real
+    }
+}
+
+/// A plate on a hinge at its edge swings under water, in an ideal fluid, as far in a fluid that trembles by 10⁻⁵ m/s as
+/// in a still one: what its energy may be is found in another way where the fluid's velocity changes, by what the
+/// fluid does in the motion that was integrated, less what the hinge's force **and** moment were counted on for.
+#[test]
+fn a_plate_swings_as_far_in_a_trembling_fluid() {
+    let swing = |trembles: bool| {
+        let mut world = PhysicsWorld::new();
+        world.integration_parameters.dt = 1.0 / 240.0;
+        let post = world.insert_body(RigidBodyBuilder::fixed());
+        let tilt = 0.3_f32;
+        let at = Vector::new(tilt.sin(), -tilt.cos(), 0.0) * 0.1;
+        let body = RigidBodyBuilder::dynamic()
+            .translation(at)
+            .rotation(Vector::Z * tilt)
+            .can_sleep(false);
+        let shape = ColliderBuilder::cuboid(0.004, 0.1, 0.05).density(7800.0);
+        let (plate, _) = world.insert(body, shape);
+        let hinge = RevoluteJointBuilder::new(Vector::Z).local_anchor2(Vector::Y * 0.1);
+        world.insert_impulse_joint(post, plate, hinge);
+        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, plate).unwrap();
+        let mut immersion = Immersion::new(Fluid::WATER);
+        let ideal = ImmersedBody::new(hydro).with_law(ViscousLaw::Inviscid);
+        immersion.insert(plate, ideal.unwrap());
+        if trembles {
+            immersion.set_flow(Trembling);
+        }
+        let mut farthest = 0.0_f32;
+        for step in 0..5 * 240 {
+            immersion.step(&mut world);
+            if step > 3 * 240 {
+                farthest = farthest.max(world.bodies[plate].translation().x.abs());
+            }
+        }
+        farthest / at.x
+    };
+    let (still, trembling) = (swing(false), swing(true));
+    println!("{still} {trembling}");
+    assert!(
+        (trembling / still - 1.0).abs() < 0.02,
+        "{still} {trembling}"
+    );
 }
 
 /// A tethered balloon in wind leans until drag, lift and weight are in line with the rope,
