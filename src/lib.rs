@@ -99,7 +99,7 @@ pub use hydro::boundary_element;
 pub use hydro::viscous::{
     Bounds, Coefficient, ForceFactors, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw,
 };
-pub use hydro::{Accuracy, AddedMass, HydroProperties, Planform, StokesResistance};
+pub use hydro::{Accuracy, AddedMass, BluffShape, HydroProperties, Planform, StokesResistance};
 pub use rapier3d;
 
 /// The examples in the README run as tests.

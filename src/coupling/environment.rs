@@ -82,6 +82,7 @@ impl Environment {
             Some(flow) => FlowSample {
                 velocity: flow.velocity(point, self.time),
                 vorticity: flow.vorticity(point, self.time),
+                ..FlowSample::default()
             },
             None => FlowSample::default(),
         }

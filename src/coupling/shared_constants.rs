@@ -4,11 +4,12 @@ use super::principal_mass::PrincipalMass;
 use crate::body::from_rapier::inertia;
 use crate::body::{DryMass, ImmersedBody};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
+use crate::dynamics::flow_response::FlowResponse;
 use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::viscous::{LawKind, PreparedLaw};
 use crate::interning::{Content, Interned};
-use crate::math::spatial::{Twist, skew, transform};
+use crate::math::spatial::transform;
 use crate::math::{Lanes, Scalar, scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
 use fearless_simd::Simd;
 use rapier3d::dynamics::MassProperties;
@@ -86,29 +87,6 @@ scalar_struct! {
     }
 }
 
-scalar_struct! {
-    /// How a body follows the fluid around it, plate axes: `𝕄⁻¹ (ρV + ρA)`, the pressure gradient and the
-    /// added mass of an accelerating flow.
-    pub(super) struct FlowResponse<T> {
-        /// Change of u per change of the fluid's velocity …
-        linear: Matrix3<T>,
-        /// … and of w = ωL.
-        angular: Matrix3<T>,
-    }
-}
-
-impl<T: Scalar> FlowResponse<T> {
-    /// Change of the velocity of a body when the fluid around it changes its own by `change`. A neutrally
-    /// buoyant body follows exactly.
-    #[inline(always)]
-    pub fn to(&self, change: &Vector3<T>) -> Twist<T> {
-        Twist {
-            linear: transform(&self.linear, change),
-            angular: transform(&self.angular, change),
-        }
-    }
-}
-
 impl<T: Scalar> Scales<T> {
     /// Torque that causes an angular acceleration in rapier, plate axes.
     #[inline(always)]
@@ -180,7 +158,7 @@ impl SharedConstants {
         let constants = BodyConstants::new(body, dry, fluid)?;
         let (mass, length) = (constants.mass, constants.length);
         let arm = constants.axes.inverse() * constants.buoyancy_arm / length;
-        let whole = mass_matrix(&constants);
+        let whole = constants.mass_matrix();
         let principal_mass = PrincipalMass::of(&whole.fixed_view::<3, 3>(0, 0).into_owned());
         let inverse_mass = whole.try_inverse().ok_or(Error::UnphysicalAddedMass)?;
         let coupling = constants.added_mass.coupling.norm();
@@ -191,21 +169,6 @@ impl SharedConstants {
             symmetric: constants.symmetric,
             law: constants.law.kind(),
         };
-        // The response to an accelerating flow, first in the body's axes, then in the plate's.
-        let mut dragged = constants
-            .added_mass
-            .to_matrix6()
-            .fixed_columns::<3>(0)
-            .into_owned();
-        let mut pressure = dragged.fixed_rows_mut::<3>(0);
-        pressure += Matrix3::from_diagonal_element(constants.displaced_mass);
-        let mut moment = dragged.fixed_rows_mut::<3>(3);
-        moment += skew(&constants.buoyancy_arm) * constants.displaced_mass;
-        let response = inverse_mass * dragged;
-        let to_plate =
-            |m: Matrix3<f64>| constants.axes.inverse().matrix() * m * constants.axes.matrix();
-        let response_linear = to_plate(response.fixed_rows::<3>(0).into_owned());
-        let response_angular = to_plate(response.fixed_rows::<3>(3).into_owned()) * length;
         let scales = Scales {
             length,
             per_mass: 1.0 / mass,
@@ -215,10 +178,7 @@ impl SharedConstants {
             buoyancy_arm: arm,
             rapier_inertia: Matrix3::from_fn(|i, j| turn[(i.min(j), i.max(j))]),
         };
-        let flow_response = FlowResponse {
-            linear: response_linear,
-            angular: response_angular,
-        };
+        let flow_response = FlowResponse::new(&constants, &inverse_mass);
         let step = StepConstants {
             inertia: constants.inertia.rounded(),
             law: constants.law.rounded(),
@@ -246,7 +206,7 @@ impl SharedConstants {
 
     /// The 6×6 mass of body and fluid about the center of mass, body axes.
     pub fn mass_matrix(&self) -> Matrix6<f64> {
-        mass_matrix(&self.constants)
+        self.constants.mass_matrix()
     }
 
     /// What rapier is given: the scalar mass it can use, and I + ρA₂₂.
@@ -295,15 +255,6 @@ fn wet(constants: &BodyConstants, mass: f64) -> DryMass {
         center: dry.center,
         inertia: dry.inertia + constants.added_mass.angular,
     }
-}
-
-fn mass_matrix(constants: &BodyConstants) -> Matrix6<f64> {
-    let mut whole = constants.added_mass.to_matrix6();
-    let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
-    linear += Matrix3::from_diagonal_element(constants.dry.mass);
-    let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
-    angular += constants.dry.inertia;
-    whole
 }
 
 impl Content for SharedConstants {

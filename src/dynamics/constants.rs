@@ -3,10 +3,10 @@
 use crate::body::{DryMass, ImmersedBody};
 use crate::error::Error;
 use crate::fluid::Fluid;
-use crate::hydro::AddedMass;
 use crate::hydro::viscous::PreparedLaw;
+use crate::hydro::{AddedMass, HydroProperties};
 use crate::math::scalar_struct;
-use rapier3d::na::{Matrix3, Rotation3, Vector3};
+use rapier3d::na::{Matrix3, Matrix6, Rotation3, Vector3};
 
 scalar_struct! {
     /// Inertia of body and fluid in **plate axes** about the center of mass.
@@ -26,8 +26,12 @@ scalar_struct! {
         per_m22: Vector3<T>,
         /// The body's own mass.
         dry_mass: T,
-        /// Share of the added mass's coupling that is felt.
+        /// Share of the added mass's coupling that is felt …
         munk: T,
+        /// … and its isotropic part, felt whole, which acts at the center of volume.
+        isotropic: T,
+        /// From the center of mass to the center of volume, L.
+        volume_center: Vector3<T>,
         /// From the center of mass to the planform's center, L.
         center: Vector3<T>,
         /// 1/L, 1/m.
@@ -57,6 +61,8 @@ pub(crate) struct BodyConstants {
     /// Added mass times density about the center of mass, body axes.
     pub added_mass: AddedMass,
     pub dry: DryMass,
+    /// (b² − c²)/(b² + c²), (c² − a²)/(c² + a²), (a² − b²)/(a² + b²) of the proxy's semi-axes.
+    pub straining: Vector3<f64>,
 }
 
 impl BodyConstants {
@@ -90,6 +96,9 @@ impl BodyConstants {
         let m12 = plate.coupling / (mass * length);
         let m22 = mirrored((plate.angular + dry_inertia) / (mass * length * length));
         let center = turn * (hydro.planform.center - dry.center) / length;
+        let volume_center = turn * (hydro.centroid - dry.center) / length;
+        let munk = body.law.munk_factor(hydro);
+        let isotropic = hydro.thickness() * rho * isotropic_share(hydro) / mass;
         let inertia = InertiaConstants {
             m11,
             m12,
@@ -97,7 +106,9 @@ impl BodyConstants {
             per_m11: m11.diagonal().map(|m| 1.0 / m),
             per_m22: m22.diagonal().map(|m| 1.0 / m),
             dry_mass: dry.mass / mass,
-            munk: body.law.munk_factor(),
+            munk,
+            isotropic,
+            volume_center,
             center,
             per_length: 1.0 / length,
             chord: 2.0 * extents.y,
@@ -106,9 +117,15 @@ impl BodyConstants {
             let rest = m - Matrix3::from_diagonal(&m.diagonal());
             (0..3).all(|i| rest.row(i).amax() <= 1e-7 * m[(i, i)])
         };
-        let symmetric =
-            diagonal(&m11) && diagonal(&m22) && m12.amax() <= 1e-7 && center.amax() <= 1e-7;
+        let squares = hydro.proxy.semi_axes.map(|s| s * s);
+        let straining = Vector3::from_fn(|i, _| {
+            let (b2, c2) = (squares[(i + 1) % 3], squares[(i + 2) % 3]);
+            (b2 - c2) / (b2 + c2)
+        });
         let law = body.law.prepare(hydro, fluid, mass, length);
+        let centered = center.amax() <= 1e-7 && volume_center.amax() * isotropic <= 1e-7;
+        let centered = centered && law.centered();
+        let symmetric = diagonal(&m11) && diagonal(&m22) && m12.amax() <= 1e-7 && centered;
         Ok(Self {
             mass,
             length,
@@ -120,8 +137,28 @@ impl BodyConstants {
             buoyancy_arm: hydro.centroid - dry.center,
             added_mass,
             dry: *dry,
+            straining,
         })
     }
+
+    /// The 6×6 mass of body and fluid about the center of mass, body axes.
+    pub fn mass_matrix(&self) -> Matrix6<f64> {
+        let mut whole = self.added_mass.to_matrix6();
+        let mut linear = whole.fixed_view_mut::<3, 3>(0, 0);
+        linear += Matrix3::from_diagonal_element(self.dry.mass);
+        let mut angular = whole.fixed_view_mut::<3, 3>(3, 3);
+        angular += self.dry.inertia;
+        whole
+    }
+}
+
+/// The added mass that a body has in every direction, per unit density, m³: the smallest principal one about
+/// the center of volume. A mass that is the same in all directions couples no motion to another, so that
+/// what a law takes off the coupling it may not take off this: a sphere would get a lift `ω × u` that no
+/// potential flow has. Of a thin plate it is next to nothing, and left out. The mean of the three would give a disc that moves edgewise a coupling that it has not.
+fn isotropic_share(hydro: &HydroProperties) -> f64 {
+    let about_volume = hydro.added_mass_about(hydro.centroid).linear;
+    about_volume.symmetric_eigenvalues().min().max(0.0)
 }
 
 /// A symmetric matrix whose lower triangle repeats the upper one to the bit.

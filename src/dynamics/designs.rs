@@ -82,8 +82,12 @@ fn fly(case: &Case, design: Design, h: f64) -> Option<Vector3<f64>> {
         buoyancy: Vector3::zeros(),
         buoyancy_arm: Vector3::zeros(),
         fluid_spin: Vector3::zeros(),
+        stretching: Vector3::zeros(),
+        shearing: Vector3::zeros(),
+        strain_response: Vector3::zeros(),
         turning: false,
         spinning: false,
+        straining: false,
         locks: Locks::none(0.0),
     };
     let tilt = UnitQuaternion::from_euler_angles(0.3, 0.2, 0.0);

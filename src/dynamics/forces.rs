@@ -119,7 +119,7 @@ impl BodyConstants {
             torque: to_real(attitude * wrench.torque * (self.mass * self.length)),
         };
         let at_pressure = |part: fn(&ViscousTerms<f64>, &Vector3<f64>) -> Vector3<f64>| {
-            let mut v = center;
+            let mut v = center + cross(w, &terms.offset);
             if terms.arm_moves {
                 v.z += w.x * terms.arm.y - w.y * terms.arm.x;
             }
@@ -128,7 +128,7 @@ impl BodyConstants {
             if terms.arm_moves {
                 torque.z = 0.0;
             }
-            let torque = torque + cross(&inertia.center, &force);
+            let torque = torque + cross(&(inertia.center + terms.offset), &force);
             world(Wrench { force, torque })
         };
         let buoyancy = now.gravity * -self.displaced_mass;
@@ -178,11 +178,14 @@ impl BodyConstants {
         });
         let carried = fluid(v);
         let spinning = mass.m22 * v.angular - dry * v.angular;
-        let felt = self.inertia.munk * self.inertia.per_length;
-        let force = cross(&carried.force, &v.angular) * felt - resisted.force;
-        let munk = cross(&carried.force, &v.linear) + cross(&(mass.m21 * v.linear), &v.angular);
-        let torque =
-            cross(&spinning, &v.angular) * self.inertia.per_length + munk * felt - resisted.torque;
+        let munk = self.inertia.munk;
+        let isotropic = (1.0 - munk) * self.inertia.isotropic;
+        let arm = &self.inertia.volume_center;
+        let p = carried.force * munk + (v.linear + cross(&v.angular, arm)) * isotropic;
+        let h = spinning + mass.m21 * v.linear * munk + cross(arm, &v.linear) * isotropic;
+        let per_length = self.inertia.per_length;
+        let force = cross(&p, &v.angular) * per_length - resisted.force;
+        let torque = (cross(&h, &v.angular) + cross(&p, &v.linear)) * per_length - resisted.torque;
         Wrench { force, torque }
     }
 }

@@ -1,13 +1,14 @@
 //! One free body in f64, without rapier: for training, calibration and tests.
 
 use super::constants::BodyConstants;
+use super::flow_response::FlowResponse;
 use super::forces::{ForceBreakdown, Instant};
 use super::integrate::{Load, Motion, advance, substeps};
 use super::integrator::Integrator;
 use super::locked::Locks;
 use crate::body::{DryMass, ImmersedBody};
 use crate::error::Error;
-use crate::flow::FlowSample;
+use crate::flow::{FlowSample, StrainRate};
 use crate::fluid::Fluid;
 use crate::hydro::viscous::ForceFactors;
 use crate::hydro::viscous::force_factors::Factored;
@@ -40,6 +41,7 @@ use rapier3d::na::{UnitQuaternion, Vector3};
 #[derive(Clone, Debug)]
 pub struct FreeBody {
     constants: BodyConstants,
+    flow_response: FlowResponse<f64>,
     /// How finely steps are integrated.
     pub integrator: Integrator,
     /// Factors on the law's forces (default 1).
@@ -53,6 +55,8 @@ pub struct FreeBody {
     rate: Twist<f64>,
     trend: Twist<f64>,
     last: f64,
+    /// Velocity of the fluid in the last step, m/s, world axes; `None` before the first.
+    stream: Option<Vector3<f64>>,
 }
 
 impl FreeBody {
@@ -64,7 +68,12 @@ impl FreeBody {
     pub fn new(body: &ImmersedBody, mass: &DryMass, fluid: &Fluid) -> Result<Self, Error> {
         let constants = BodyConstants::new(body, mass, fluid)?;
         let attitude = UnitQuaternion::from_rotation_matrix(&constants.axes);
+        let inverse_mass = constants
+            .mass_matrix()
+            .try_inverse()
+            .ok_or(Error::UnphysicalAddedMass)?;
         Ok(Self {
+            flow_response: FlowResponse::new(&constants, &inverse_mass),
             constants,
             integrator: Integrator::default(),
             control: ForceFactors::default(),
@@ -74,6 +83,7 @@ impl FreeBody {
             rate: Twist::zero(0.0),
             trend: Twist::zero(0.0),
             last: 0.0,
+            stream: None,
         })
     }
 
@@ -148,6 +158,10 @@ impl FreeBody {
     }
 
     /// Advances by `dt` in a fluid that moves uniformly with `flow` during the step.
+    ///
+    /// What the fluid's velocity has changed by since the last step, the body feels as the pressure gradient
+    /// and added mass of an accelerating flow, as in an [`Immersion`](crate::Immersion): a neutrally buoyant
+    /// one changes its own by as much. In its first step a body finds the fluid as it is.
     pub fn step_in(&mut self, dt: f64, gravity: Vector3<f64>, flow: &FlowSample) {
         if dt.is_nan() || dt <= 0.0 {
             return;
@@ -162,8 +176,12 @@ impl FreeBody {
             buoyancy,
             buoyancy_arm: c.axes.inverse() * c.buoyancy_arm / c.length,
             fluid_spin: math::to_f64(flow.vorticity) * (0.5 * c.length),
+            stretching: math::to_f64(flow.strain.stretching),
+            shearing: math::to_f64(flow.strain.shearing),
+            strain_response: self.flow_response.straining,
             turning: true,
             spinning: true,
+            straining: flow.strain != StrainRate::default(),
             locks: Locks::none(0.0),
         };
         let mut motion = Motion {
@@ -174,7 +192,12 @@ impl FreeBody {
             trend: self.trend,
             last: self.last,
         };
-        motion.velocity.linear -= rotate_back(&motion.attitude, &stream);
+        let change = stream - self.stream.replace(stream).unwrap_or(stream);
+        let response = self
+            .flow_response
+            .to(&rotate_back(&motion.attitude, &change));
+        motion.velocity.linear += response.linear - rotate_back(&motion.attitude, &stream);
+        motion.velocity.angular += response.angular;
         let inertia = &c.inertia;
         let count = substeps(inertia, &motion, &load, dt, &self.integrator);
         let (most, iterations) = (count as u32, self.integrator.iterations);

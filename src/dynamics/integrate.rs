@@ -81,12 +81,34 @@ pub(crate) struct Load<T> {
     pub buoyancy_arm: Vector3<T>,
     /// Half the vorticity of the fluid times L, m/s: the spin at which damping rests.
     pub fluid_spin: Vector3<T>,
+    /// The fluid's rate of strain, 1/s: stretching along and shearing across the axes of the world; and what
+    /// spin, in units of speed, the shearing across each plate axis is worth (m).
+    pub stretching: Vector3<T>,
+    pub shearing: Vector3<T>,
+    pub strain_response: Vector3<T>,
     /// Whether torque or buoyancy arm are not zero for some body.
     pub turning: bool,
     /// Whether the fluid's spin is not zero around some body.
     pub spinning: bool,
+    /// Whether the fluid strains around some body, which then counts as spinning, too.
+    pub straining: bool,
     /// Axes along which nothing changes the velocity.
     pub locks: Locks<T>,
+}
+
+impl<T: Scalar> Load<T> {
+    /// The spin that the fluid's strain is worth to an ellipsoid, plate axes:
+    /// ωₓ = (b² − c²)/(b² + c²) E_yz and so on (Jeffery 1922).
+    #[inline(always)]
+    fn strain_spin(&self, attitude: &Quaternion<T>) -> Vector3<T> {
+        let (n, s) = (&self.stretching, &self.shearing);
+        // The columns of E in plate axes, and the rows of what comes out once more: RᵀER.
+        let x = rotate_back(attitude, &Vector3::new(n.x, s.z, s.y));
+        let y = rotate_back(attitude, &Vector3::new(s.z, n.y, s.x));
+        let z = rotate_back(attitude, &Vector3::new(s.y, s.x, n.z));
+        let row = |i: usize| rotate_back(attitude, &Vector3::new(x[i], y[i], z[i]));
+        Vector3::new(row(1).z, row(2).x, row(0).y).component_mul(&self.strain_response)
+    }
 }
 
 /// What moves less than this many chords in a step may change its course as it likes.
@@ -145,11 +167,14 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     for _ in 0..iterations.max(law.least_iterations()) {
         let half_turn = middle.angular * (half * h * inertia.per_length);
         let attitude = turned(&motion.attitude, &(half_turn * half));
-        let fluid_spin = if load.spinning {
+        let mut fluid_spin = if load.spinning {
             rotate_back(&attitude, &load.fluid_spin)
         } else {
             Vector3::repeat(zero)
         };
+        if load.straining {
+            fluid_spin += load.strain_spin(&attitude);
+        }
         let terms = law.terms(
             &inertia.center_velocity(&middle),
             &(middle.angular - fluid_spin),
@@ -388,8 +413,12 @@ mod tests {
             buoyancy: Vector3::zeros(),
             buoyancy_arm: Vector3::zeros(),
             fluid_spin: Vector3::zeros(),
+            stretching: Vector3::zeros(),
+            shearing: Vector3::zeros(),
+            strain_response: Vector3::zeros(),
             turning: false,
             spinning: false,
+            straining: false,
             locks: Locks::none(0.0),
         }
     }

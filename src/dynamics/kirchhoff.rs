@@ -70,7 +70,8 @@ impl<T: Scalar> InertiaConstants<T> {
     /// N(ν): inertial coupling and viscous force as a matrix that acts on the velocity.
     ///
     /// `v` is the velocity at which it is frozen. The inertial part is skew-symmetric for any
-    /// `v`; of the added mass's share in it only the fraction `munk` is kept.
+    /// `v`; of the added mass's share in it only the fraction `munk` is kept, but all of the part that is
+    /// the same in all directions.
     #[inline(always)]
     pub(super) fn coupling_matrix(
         &self,
@@ -79,17 +80,26 @@ impl<T: Scalar> InertiaConstants<T> {
         v: &Twist<T>,
     ) -> Blocks<T> {
         // Of the body's own momentum m u, ω × is applied to u, so that no torque m u × u is left
-        // where the frozen u and the new one differ; that of the fluid turns with both.
-        let own = skew(&(v.angular * (self.dry_mass * self.per_length)));
-        let p = transform(&mass.m11, &v.linear) - v.linear * self.dry_mass
-            + transform(&mass.m12, &v.angular);
+        // where the frozen u and the new one differ; that of the fluid turns with both, but for the part of
+        // it that is the same in all directions, which is like a mass of the body's own at its middle.
+        let (isotropic, arm) = (self.isotropic, &self.volume_center);
+        let own = skew(&(v.angular * ((self.dry_mass + isotropic) * self.per_length)));
+        let middle = skew(arm);
+        let turning = skew(&(v.angular * (isotropic * self.per_length)));
+        let own12 = product(&turning, &middle);
+        let own22 = product(&middle, &own12);
+        let p = transform(&mass.m11, &v.linear) - v.linear * (self.dry_mass + isotropic)
+            + transform(&mass.m12, &v.angular)
+            - cross(&v.angular, arm) * isotropic;
         let p = p * self.munk;
-        let h = transform(&mass.m22, &v.angular) + transform(&mass.m21, &v.linear) * self.munk;
+        let h = transform(&mass.m22, &v.angular)
+            + cross(arm, &cross(arm, &v.angular)) * isotropic
+            + (transform(&mass.m21, &v.linear) - cross(arm, &v.linear) * isotropic) * self.munk;
         let p = skew(&(p * self.per_length));
         let h = skew(&(h * self.per_length));
 
         let g = terms.force_matrix();
-        let lever = skew(&self.center);
+        let lever = skew(&(self.center + terms.offset));
         let arm = skew(&terms.arm);
         // v_pressure = u + lever_v·w, torque = lever_t·f
         let (lever_v, lever_t) = if terms.arm_moves {
@@ -104,14 +114,14 @@ impl<T: Scalar> InertiaConstants<T> {
         };
         let n12 = product(&g, &lever_v);
         let n21 = product(&lever_t, &g);
-        let mut n22 = product(&n21, &lever_v) + h;
+        let mut n22 = product(&n21, &lever_v) + h + own22;
         for i in 0..3 {
             n22[(i, i)] -= terms.damping[i];
         }
         Blocks {
             m11: g - own,
-            m12: n12 + p,
-            m21: n21 + p,
+            m12: n12 + p + own12,
+            m21: n21 + p - own12.transpose(),
             m22: n22,
         }
     }

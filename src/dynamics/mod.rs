@@ -3,6 +3,7 @@
 pub(crate) mod constants;
 #[cfg(test)]
 mod designs;
+pub(crate) mod flow_response;
 pub(crate) mod forces;
 mod free_body;
 pub(crate) mod integrate;

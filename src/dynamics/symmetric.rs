@@ -10,7 +10,7 @@
 //! ⎣ −[p]× − j e_zᵀ (m_z + [c]×)  K − [g]× + m_z j jᵀ     ⎦ ⎣Δw⎦ = ⎣t'⎦
 //! ```
 //!
-//! with D and K diagonal, c = mω for the body's own mass, p the fluid's linear and g the angular
+//! with D and K diagonal, c = mω for the body's own mass and the fluid's that is the same in all directions, p the fluid's linear and g the angular
 //! momentum (with `j·p` added along z), l the lift less c, all of them times θh. A diagonal plus a
 //! skew matrix has the inverse `(adj D + l lᵀ + [D l]×) / (det D + l·D l)`.
 
@@ -34,12 +34,13 @@ impl<T: Scalar> InertiaConstants<T> {
     ) -> Twist<T> {
         let (u, w) = (&middle.linear, &middle.angular);
         let share = self.munk * self.per_length;
+        let own = self.dry_mass + self.isotropic;
         let p = Vector3::new(
-            (self.m11.m11 - self.dry_mass) * u.x * share,
-            (self.m11.m22 - self.dry_mass) * u.y * share,
-            (self.m11.m33 - self.dry_mass) * u.z * share,
+            (self.m11.m11 - own) * u.x * share,
+            (self.m11.m22 - own) * u.y * share,
+            (self.m11.m33 - own) * u.z * share,
         );
-        let c = w * (self.dry_mass * self.per_length);
+        let c = w * (own * self.per_length);
         let g = Vector3::new(self.m22.m11 * w.x, self.m22.m22 * w.y, self.m22.m33 * w.z)
             * self.per_length;
         let lift = terms.translational_lift + terms.rotational_lift;

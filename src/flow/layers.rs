@@ -112,7 +112,8 @@ mod tests {
         let mut samples = vec![
             FlowSample {
                 velocity: Vector::ONE,
-                vorticity: Vector::ONE
+                vorticity: Vector::ONE,
+                ..FlowSample::default()
             };
             150
         ];

@@ -11,6 +11,7 @@ mod ellipsoid;
 mod graded;
 mod panels;
 pub(crate) mod quality;
+mod relief;
 mod revolution;
 mod rounded;
 mod sheet;
@@ -19,6 +20,7 @@ mod tessellate;
 mod voxels;
 
 pub use ellipsoid::Ellipsoid;
+pub(crate) use relief::{Relief, Seen};
 pub use sheet::Sheet;
 pub use surface::{Surface, VolumeIntegrals};
 pub(crate) use tessellate::rounded_volume;

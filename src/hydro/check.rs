@@ -60,6 +60,9 @@ impl HydroProperties {
             enough,
             "at least two",
         )?;
+        if let Some(bluff) = &self.bluff {
+            bluff.check()?;
+        }
         Ok(())
     }
 }

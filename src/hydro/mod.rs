@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod added_mass;
+mod bluff_shape;
 #[cfg(feature = "bake")]
 pub mod boundary_element;
 mod carlson;
@@ -11,10 +12,13 @@ mod ellipsoid;
 mod file;
 mod planform;
 mod properties;
+mod silhouette;
 pub(crate) mod viscous;
 
 pub use accuracy::Accuracy;
 pub use added_mass::AddedMass;
+pub use bluff_shape::BluffShape;
 pub use ellipsoid::StokesResistance;
 pub use planform::Planform;
 pub use properties::HydroProperties;
+use silhouette::Silhouette;

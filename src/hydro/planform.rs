@@ -1,5 +1,6 @@
 //! What a body shows to the fluid that flows against its broad side.
 
+use super::Silhouette;
 use crate::geometry::{Surface, VolumeIntegrals};
 use rapier3d::na::{Rotation3, Vector2, Vector3};
 
@@ -74,6 +75,18 @@ impl Planform {
             second_moment: second,
             third_moment: third,
         }
+    }
+}
+
+impl Planform {
+    /// Puts what a silhouette shows in place of what faces at all depths add up to.
+    pub(super) fn unfold(&mut self, silhouette: &Silhouette, integrals: &VolumeIntegrals) {
+        let center = Vector3::new(silhouette.center.x, silhouette.center.y, 0.0);
+        self.area = silhouette.area;
+        self.center = integrals.centroid + self.axes * center;
+        self.thickness = integrals.volume / self.area;
+        self.second_moment = silhouette.second_moment;
+        self.third_moment = silhouette.third_moment;
     }
 }
 

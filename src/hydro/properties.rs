@@ -1,10 +1,16 @@
 //! Everything the fluid feels of a shape, computed once.
 
-use super::{AddedMass, Planform};
+use super::{AddedMass, BluffShape, Planform, Silhouette};
 use crate::error::Error;
 use crate::geometry::{Ellipsoid, Surface};
 use rapier3d::na::{Matrix3, Rotation3, Vector3};
 use rapier3d::parry::shape::Shape;
+
+/// A shadow that is smaller by more than this than half of what the surface shows is that of a folded one: more than
+/// the lines that it is measured along miss of a round outline.
+const FOLDED: f64 = 3e-3;
+/// Thickness over width up to which a body is purely a plate to every law.
+pub(super) const THIN: f64 = 0.25;
 
 /// What the fluid feels of a shape: displaced volume, added mass, planform and proxy ellipsoid.
 ///
@@ -29,6 +35,9 @@ pub struct HydroProperties {
     pub planform: Planform,
     /// Ellipsoid with the same three principal shadows as the shape, along the planform's axes.
     pub proxy: Ellipsoid,
+    /// What the law of bodies that are not plates knows of the shape; `None` for a thin plate, and where
+    /// nothing but the proxy is known.
+    pub bluff: Option<BluffShape>,
 }
 
 impl HydroProperties {
@@ -73,14 +82,27 @@ impl HydroProperties {
     pub fn from_surface(surface: &Surface, reference: Vector3<f64>) -> Self {
         let integrals = surface.volume_integrals();
         let axes = principal_axes(surface, &integrals.second_moment);
-        let planform = Planform::new(surface, &integrals, axes);
-        // Where parts touch or overlap, faces that no fluid reaches count too, but a shadow is never larger
-        // than that of the box.
+        let mut planform = Planform::new(surface, &integrals, axes);
+        // No shadow is larger than that of the box.
         let [x, y, z]: [f64; 3] = planform.half_extents.into();
         let boxed = Vector3::new(y * z, z * x, x * y) * 4.0;
-        let shadows =
+        let mut shadows =
             Vector3::from_fn(|i, _| surface.projected_area(axes.matrix().column(i).into()));
-        let proxy = ellipsoid_with_shadows(shadows.inf(&boxed));
+        shadows = shadows.inf(&boxed);
+        // Where parts touch or overlap, or a surface is folded, lines cross it more than twice: what no fluid
+        // reaches counts once.
+        let around = Silhouette::around(surface, integrals.centroid, &axes);
+        for (shadow, silhouette) in shadows.iter_mut().zip(&around) {
+            if *shadow > silhouette.area * (1.0 + FOLDED) {
+                *shadow = silhouette.area;
+            }
+        }
+        if planform.area > around[2].area * (1.0 + FOLDED) {
+            planform.unfold(&around[2], &integrals);
+        }
+        let proxy = rounded(ellipsoid_with_shadows(shadows));
+        let bluff = (proxy.semi_axes.z > THIN * proxy.semi_axes.y)
+            .then(|| BluffShape::new(surface, integrals.centroid, &axes));
         let added_mass = proxy
             .added_mass()
             .rotated(&axes)
@@ -92,6 +114,7 @@ impl HydroProperties {
             added_mass,
             planform,
             proxy,
+            bluff,
         }
     }
 
@@ -122,6 +145,14 @@ impl HydroProperties {
     /// Added mass about another point of the frame, m.
     pub fn added_mass_about(&self, point: Vector3<f64>) -> AddedMass {
         self.added_mass.about(point - self.reference)
+    }
+
+    /// 0 for a body that is purely a plate to every law, 1 from a little more on: what belongs to the edges
+    /// of a slab, which thin plates do without.
+    pub(crate) fn thickness(&self) -> f64 {
+        let semi_axes = &self.proxy.semi_axes;
+        let t = ((semi_axes.z / semi_axes.y - THIN) / 0.05).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
     }
 
     /// Displaced volume over the volume of the box around it: π/6 for an ellipsoid, 1 for a box.
@@ -162,6 +193,26 @@ fn principal_axes(surface: &Surface, second_moment: &Matrix3<f64>) -> Rotation3<
     };
     debug_assert!(surface.triangles().len() >= 4);
     Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]))
+}
+
+/// Makes the axes of a body that is not a plate equal where they differ by no more than facets do: a ball's
+/// proxy is round, or it would turn to the flow like an egg.
+fn rounded(mut proxy: Ellipsoid) -> Ellipsoid {
+    let alike = |x: f64, y: f64| (x - y).abs() <= 5e-3 * x.max(y);
+    let axes = &mut proxy.semi_axes;
+    if axes.z <= THIN * axes.y {
+        return proxy;
+    }
+    if alike(axes.x, axes.z) {
+        *axes = Vector3::repeat(axes.product().cbrt());
+    } else if alike(axes.x, axes.y) {
+        let mean = (axes.x * axes.y).sqrt();
+        (axes.x, axes.y) = (mean, mean);
+    } else if alike(axes.y, axes.z) {
+        let mean = (axes.y * axes.z).sqrt();
+        (axes.y, axes.z) = (mean, mean);
+    }
+    proxy
 }
 
 /// The ellipsoid whose shadows along its axes have these areas: exact for an ellipsoid, and for a

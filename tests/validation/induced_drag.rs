@@ -26,7 +26,7 @@ const ATTACHED: PhysicalLaw = PhysicalLaw {
     induced_drag: 0.0,
     lift_onset: 0.0,
     damping_onset: 0.0,
-    magnus: 0.5,
+    magnus: 0.0,
 };
 
 /// Chord 2 cm along z; the span is along x.

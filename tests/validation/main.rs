@@ -1,5 +1,6 @@
 //! What must hold: one physical law or promise per module.
 
+mod bluff;
 mod changed;
 mod changed_body;
 mod colliders;

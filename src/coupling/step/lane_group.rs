@@ -117,8 +117,12 @@ impl<S: Simd> LaneGroup<'_, S> {
             buoyancy,
             buoyancy_arm: scale.buoyancy_arm,
             fluid_spin: nothing,
+            stretching: nothing,
+            shearing: nothing,
+            strain_response: nothing,
             turning: self.buoyancy_turns || self.bodies.iter().any(|input| input.has_torque),
             spinning: false,
+            straining: false,
             locks: Locks::none(zero),
         };
         if self.bodies.iter().any(|input| input.disturbance != NONE) {
@@ -141,6 +145,12 @@ impl<S: Simd> LaneGroup<'_, S> {
             if self.index.iter().any(spins) {
                 load.spinning = true;
                 load.fluid_spin = flow(|f| f.vorticity) * (scale.length * constant(0.5));
+            }
+            if self.index.iter().any(|place| flows[*place].strains()) {
+                (load.spinning, load.straining) = (true, true);
+                load.stretching = flow(|f| f.stretching);
+                load.shearing = flow(|f| f.shearing);
+                load.strain_response = flow_response.straining;
             }
             // The velocity is counted in the frame of the fluid: a body that goes on is there already,
             // but the frame itself has changed its velocity.

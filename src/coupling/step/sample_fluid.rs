@@ -12,6 +12,10 @@ use crate::turbulence::LangevinMode;
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::Real;
 
+/// Reynolds number up to which a body is turned by the strain of the fluid, less and less: that is a matter of creeping
+/// flow.
+const STRAIN_ENDS: Real = 30.0;
+
 /// Reads the flow at every body of a batch and adds the turbulence. Bodies where the flow is no number are
 /// added to `bad_flows`.
 pub(super) fn sample_fluid(
@@ -37,6 +41,21 @@ pub(super) fn sample_fluid(
     samples.resize(points.len(), FlowSample::default());
     if let Some(flow) = &environment.flow {
         flow.sample(points, environment.time, samples);
+    }
+    if let Some(flow) = &environment.flow {
+        let viscosity = environment.fluid.kinematic_viscosity();
+        for ((input, point), sample) in inputs.iter().zip(points.iter()).zip(samples.iter_mut()) {
+            let Some(shared) = constants.get(input.constants) else {
+                continue;
+            };
+            let reach = shared.constants.length as Real;
+            let slip = (vector(input.rapier_linear) - sample.velocity).length();
+            let speed = slip + sample.vorticity.length() * reach;
+            let share = 1.0 - speed * (2.0 * reach) / (STRAIN_ENDS * viscosity);
+            if share > 0.0 {
+                sample.strain = flow.strain_rate(*point, environment.time, reach) * share;
+            }
+        }
     }
     if let Some(layer) = &environment.turbulence {
         let turbulence = StepTurbulence::new(layer, environment, context.dt);

@@ -123,6 +123,9 @@ pub(in crate::coupling) struct SeenFlow {
     pub velocity: Row,
     /// Its vorticity, 1/s.
     pub vorticity: Row,
+    /// Its rate of strain, 1/s: stretching along the axes, shearing across them.
+    pub stretching: Row,
+    pub shearing: Row,
     /// Change of its velocity since the last step, m/s; zero for a body that was not in flight then.
     pub change: Row,
     /// Whether the velocity of the last step is known.
@@ -140,17 +143,26 @@ impl SeenFlow {
         }
     }
 
+    /// Whether the fluid strains.
+    #[inline(always)]
+    pub fn strains(&self) -> bool {
+        self.stretching != Row::default() || self.shearing != Row::default()
+    }
+
     /// Goes on to this step's flow; says whether that is a number. Where it is not, the fluid stays as it
     /// was.
     #[inline(always)]
     pub fn advance(&mut self, sample: &FlowSample) -> bool {
-        let finite = (sample.velocity + sample.vorticity).is_finite();
+        let strain = sample.strain.stretching + sample.strain.shearing;
+        let finite = (sample.velocity + sample.vorticity + strain).is_finite();
         if finite {
             if self.known_before {
                 self.change = row(sample.velocity - vector(self.velocity));
             }
             self.velocity = row(sample.velocity);
             self.vorticity = row(sample.vorticity);
+            self.stretching = row(sample.strain.stretching);
+            self.shearing = row(sample.strain.shearing);
         }
         finite
     }

@@ -17,6 +17,7 @@
 //! A law is a table of [`coefficients`] and constants that are prepared from it once per body and
 //! fluid. This file is the only one that lists them; `CONTRIBUTING.md` shows how to add one.
 
+mod bluff;
 pub(crate) mod coefficients;
 pub(crate) mod force_factors;
 mod inviscid;
@@ -35,9 +36,10 @@ use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::math::{Lanes, Scalar};
+use bluff::{BluffConstants, MixedConstants};
 use fearless_simd::Simd;
 use inviscid::InviscidConstants;
-use physical::{PhysicalConstants, PlateConstants};
+use physical::PhysicalConstants;
 use rapier3d::na::Vector3;
 use stochastic::StochasticConstants;
 use terms::{Evaluate, ViscousTerms};
@@ -105,9 +107,9 @@ impl ViscousLaw {
     }
 
     /// How much of the inertial *coupling* of the added mass the law keeps, in [0, 1].
-    pub(crate) fn munk_factor(&self) -> f64 {
+    pub(crate) fn munk_factor(&self, hydro: &HydroProperties) -> f64 {
         match self {
-            Self::Physical(law) => law.munk,
+            Self::Physical(law) => law.munk_factor(hydro),
             Self::Inviscid | Self::Thesis(_) | Self::Stochastic(_) => 1.0,
         }
     }
@@ -123,10 +125,10 @@ impl ViscousLaw {
         match self {
             Self::Inviscid => PreparedLaw::Inviscid(InviscidConstants::new()),
             Self::Physical(law) => {
-                let constants = law.prepare(hydro, fluid, mass, length);
-                match PlateConstants::of(&constants) {
-                    Some(plate) => PreparedLaw::Plate(plate),
-                    None => PreparedLaw::Physical(constants),
+                let plate = law.prepare(hydro, fluid, mass, length);
+                match BluffConstants::of(law, hydro, fluid, mass, length) {
+                    Some(bluff) => PreparedLaw::Mixed(MixedConstants::new(plate, bluff)),
+                    None => PreparedLaw::Plate(plate),
                 }
             }
             Self::Thesis(law) => PreparedLaw::Thesis(law.prepare(hydro, fluid, mass, length)),
@@ -229,13 +231,23 @@ macro_rules! prepared_laws {
     };
 }
 
+impl PreparedLaw<f64> {
+    /// Whether the law's force acts on a point of the planform whatever the motion.
+    pub fn centered(&self) -> bool {
+        match self {
+            Self::Mixed(law) => law.centered(),
+            _ => true,
+        }
+    }
+}
+
 prepared_laws! {
     /// An ideal fluid.
     Inviscid(InviscidConstants),
     /// The default law for a body that is purely a plate to it …
-    Plate(PlateConstants),
+    Plate(PhysicalConstants),
     /// … and for one that is not.
-    Physical(PhysicalConstants),
+    Mixed(MixedConstants),
     /// The thesis's law of chapter 5.
     Thesis(ThesisConstants),
     /// The thesis's law of chapter 4.

@@ -3,9 +3,10 @@
 use super::coefficients::{Bounds, Coefficient, coefficients};
 use super::terms::{Evaluate, ViscousTerms, safe_inverse};
 use crate::fluid::Fluid;
-use crate::hydro::HydroProperties;
-use crate::math::{Lanes, Scalar, scalar_struct};
-use fearless_simd::Simd;
+use crate::geometry::Ellipsoid;
+use crate::hydro::properties::THIN;
+use crate::hydro::{HydroProperties, StokesResistance};
+use crate::math::{Scalar, scalar_struct};
 use rapier3d::na::Vector3;
 use std::f64::consts::PI;
 
@@ -30,7 +31,8 @@ coefficients! {
     /// * rotational lift `ρAc C_R (1 − ε sin²α) ω_t × v`;
     /// * damping of the rotation by the pressure on the two halves of the plate and by friction;
     /// * the Munk moment of the added mass weakened to `munk`, because separated flow does not recover
-    ///   the pressure that makes it.
+    ///   the pressure that makes it; what of the added mass is the same in all directions, and makes no
+    ///   moment, is left as it is, and so are bodies that are as thick as wide.
     ///
     /// No term can add energy to body and fluid: drag opposes v, the lifts are perpendicular to it, and
     /// the torque is that of the same force at the same point.
@@ -40,8 +42,8 @@ coefficients! {
     /// [`training::fidelity`](crate::training::fidelity), example `calibrate`. What they reach is in
     /// the table of the example `validation`.
     ///
-    /// Bodies that are not plates blend, by thickness, into the drag curve of a sphere (Clift &
-    /// Gauvin 1971) on their actual shadow, with a Magnus force instead of the plate's lifts.
+    /// Bodies that are not plates blend, by thickness, into bluff bodies with drag coefficients from their own
+    /// geometry ([`BluffShape`](crate::BluffShape)), with a Magnus force instead of the plate's lifts.
     pub struct PhysicalLaw {
         /// χ: travel of the center of pressure toward the leading edge in attached flow, in chords.
         pressure_travel: 0.0962, NotNegative, search 0.0 to 0.3;
@@ -63,7 +65,7 @@ coefficients! {
         rotational_aspect: 6.55, NotNegative, search 0.0 to 12.0;
         /// ε: loss of rotational lift broadside on.
         rotational_stall: 0.176, Unit, search 0.0 to 1.0;
-        /// k_M ∈ [0, 1]: share of the added mass's inertial coupling (Munk moment) that is felt.
+        /// k_M ∈ [0, 1]: share of the added mass's inertial coupling (Munk moment) that plates feel.
         munk: 0.0345, Unit, search 0.0 to 1.0;
         /// k₁: damping of rotation by translation.
         translation_damping: 0.0827, NotNegative, search 0.0 to 1.5;
@@ -82,8 +84,12 @@ coefficients! {
         suction_loss: 0.877, NotNegative, search 0.0 to 1.3;
         /// k_i: induced drag, in units of the elliptic wing's.
         induced_drag: 1.54, NotNegative, search 0.0 to 3.0;
-        /// C_M ∈ [½, 1]: Magnus force `C_M ρV ω × u` of bodies that are not plates.
-        magnus: 0.5, NotNegative;
+        /// Lift of spinning bodies that are not plates, the Magnus force, in units of that of a ball:
+        /// `C_L = S/(2.32 S + 0.4)` on the shadow of the sphere of the same volume, of radius R, with the
+        /// spin ratio `S = R|ω × û|/|u|`. Fitted to baseballs (Nathan, *Am. J. Phys.* 76, 119 (2008): S from
+        /// 0.09 to 0.6, Re 1–2·10⁵); its slope 2.5 at small S is not far from creeping flow's 2 (Rubinow &
+        /// Keller 1961). Smooth balls near their drag crisis may be deflected the other way.
+        magnus: 1.0, NotNegative;
     }
 }
 
@@ -130,15 +136,6 @@ scalar_struct! {
         spin_friction: T,
         /// Creeping resistance to rotation about x, y, z, 1/s.
         creeping_spin: Vector3<T>,
-        /// Share of the plate's drag; the rest is that of a bluff body.
-        plate_share: T,
-        /// Squares of the bluff body's share of ½ρ × its shadow along x, y, z.
-        shadow2: Vector3<T>,
-        bluff_plateau: T,
-        /// Speed × this = Re on the volume's diameter.
-        bluff_reynolds_scale: T,
-        /// Magnus force per spin in units of speed, 1/m.
-        magnus: T,
     }
 }
 
@@ -171,8 +168,52 @@ fn thinness(ratio: f64) -> f64 {
     1.0 - t * t * (3.0 - 2.0 * t)
 }
 
+/// Resistance in creeping flow, along the planform's axes: that of the proxy for ellipsoids and plates.
+///
+/// A fuller body than an ellipsoid, one that fills more of its box, is as an ellipsoid of its half extents eᵢ
+/// swollen by `s (ē/eᵢ)^(0.28 (s − 1))`, with `s = (6/π fill)^0.4` and ē the geometric mean of the three: to 2 % along and
+/// across cylinders from 2 to 30 diameters long (Tirado & García de la Torre, *J. Chem. Phys.* 71, 2581 (1979))
+/// and for a cube (whose radius in creeping flow is 0.66 edges).
+fn creeping_resistance(hydro: &HydroProperties, plate_share: f64) -> StokesResistance {
+    let plate = hydro.proxy.stokes_resistance();
+    let full = hydro.box_fill() * 6.0 / PI;
+    if plate_share == 1.0 || full <= 1.0 {
+        return plate;
+    }
+    let swelling = full.min(6.0 / PI).powf(0.4);
+    let half = &hydro.planform.half_extents;
+    let mean = half.product().cbrt();
+    let semi_axes = half.map(|e| e * swelling * (mean / e).powf(0.28 * (swelling - 1.0)));
+    let bluff = Ellipsoid { semi_axes }.stokes_resistance();
+    let mixed = |plate, bluff: Vector3<f64>| bluff.lerp(&plate, plate_share);
+    StokesResistance {
+        linear: mixed(plate.linear, bluff.linear),
+        angular: mixed(plate.angular, bluff.angular),
+    }
+}
+
 impl PhysicalLaw {
-    /// The constants of one body. `mass` and `length` are its scales.
+    /// Share of the added mass's coupling that a body feels: `munk` for plates and other squat bodies with
+    /// edges, behind which the flow is separated, all of it for long ones and for round ones.
+    pub(super) fn munk_factor(&self, hydro: &HydroProperties) -> f64 {
+        let semi_axes = &hydro.proxy.semi_axes;
+        let squat = 1.0 - thinness(semi_axes.y / semi_axes.x);
+        let edged = hydro.bluff.as_ref().map_or(0.0, |shape| {
+            1.0 - shape.roundness[0].z.min(shape.roundness[1].z)
+        });
+        let separated = Self::plate_share(hydro).max(squat * edged);
+        separated * self.munk + (1.0 - separated)
+    }
+
+    /// How much of a plate a body is: purely up to a thickness of a quarter of its width, which no plate
+    /// of the calibration reaches (they are thinner than 1/7), and none from a half on, as thick as a hemisphere.
+    pub(super) fn plate_share(hydro: &HydroProperties) -> f64 {
+        let semi_axes = &hydro.proxy.semi_axes;
+        let t = ((semi_axes.z / semi_axes.y - THIN) / THIN).clamp(0.0, 1.0);
+        1.0 - t * t * (3.0 - 2.0 * t)
+    }
+
+    /// The constants of one body as far as it is a plate. `mass` and `length` are its scales.
     pub(crate) fn prepare(
         &self,
         hydro: &HydroProperties,
@@ -185,10 +226,10 @@ impl PhysicalLaw {
         let plate = &hydro.planform;
         let proxy = &hydro.proxy;
         let [a, b, c]: [f64; 3] = proxy.semi_axes.into();
-        let creeping = proxy.stokes_resistance();
+        let creeping = creeping_resistance(hydro, Self::plate_share(hydro));
         let drag = creeping.linear * (rho * nu / mass);
         let spin_drag = creeping.angular * (rho * nu / (mass * length * length));
-        let share = thinness(c / b);
+        let share = Self::plate_share(hydro);
 
         let slenderness = plate.half_extents.x / plate.half_extents.y;
         let fill = plate.area / (4.0 * plate.half_extents.x * plate.half_extents.y);
@@ -201,15 +242,13 @@ impl PhysicalLaw {
         let flat = [thinness(c / b), thinness(c / a), thinness(b / a)];
         let second = [plate.second_moment.x, plate.second_moment.y, edge_on.0];
         let third = [plate.third_moment.x, plate.third_moment.y, edge_on.1];
-        let by_u =
-            |i: usize| pressure * flat[i] * second[i] * self.translation_damping / length.powi(2);
-        let by_w =
-            |i: usize| pressure * flat[i] * third[i] * self.rotation_damping / length.powi(3);
-        // A body that fills its box has sharp edges, where the flow separates.
-        let edges = ((hydro.box_fill() - PI / 6.0) / (1.0 - PI / 6.0)).clamp(0.0, 1.0);
-        let shadow = |axes: f64| ((1.0 - share) * 0.5 * rho * PI * axes / mass).powi(2);
-        let diameter = 2.0 * (a * b * c).cbrt();
-
+        // What of it is no plate is damped as a bluff body.
+        let by_u = |i: usize| {
+            share * (pressure * flat[i] * second[i] * self.translation_damping / length.powi(2))
+        };
+        let by_w = |i: usize| {
+            share * (pressure * flat[i] * third[i] * self.rotation_damping / length.powi(3))
+        };
         PhysicalConstants {
             dynamic_area: 0.5 * rho * plate.area / mass,
             extent_x2: (plate.half_extents.x / length).powi(2),
@@ -238,72 +277,16 @@ impl PhysicalLaw {
             induced_drag: self.induced_drag / PI,
             damping_u: Vector3::new(by_u(0), by_u(1), by_u(2)),
             damping_w: Vector3::new(by_w(0), by_w(1), by_w(2)),
-            spin_friction: 0.005 * rho * (plate.second_moment.x + plate.second_moment.y)
+            spin_friction: share * 0.005 * rho * (plate.second_moment.x + plate.second_moment.y)
                 / (mass * length * length),
             creeping_spin: spin_drag,
-            plate_share: share,
-            shadow2: Vector3::new(shadow(b * c), shadow(a * c), shadow(a * b)),
-            bluff_plateau: 0.42 + edges * (1.05 - 0.42),
-            bluff_reynolds_scale: diameter / nu,
-            magnus: self.magnus * rho * hydro.volume * (1.0 - share) / (mass * length),
         }
-    }
-}
-
-/// The constants of a body that is purely a plate to the law: no bluff body's share is computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PlateConstants<T>(PhysicalConstants<T>);
-
-impl PlateConstants<f64> {
-    /// `None` for a body that is partly a bluff one.
-    pub fn of(constants: &PhysicalConstants<f64>) -> Option<Self> {
-        (constants.plate_share == 1.0).then_some(Self(*constants))
-    }
-
-    /// The nearest constants in f32.
-    pub fn rounded(&self) -> PlateConstants<f32> {
-        PlateConstants(self.0.rounded())
-    }
-}
-
-impl PlateConstants<f32> {
-    /// Whether every constant is a finite number.
-    pub fn is_finite(&self) -> bool {
-        self.0.is_finite()
-    }
-}
-
-impl<S: Simd> PlateConstants<Lanes<S>> {
-    /// The same constants in every lane.
-    #[inline(always)]
-    pub fn splat(simd: S, constants: &PlateConstants<f32>) -> Self {
-        Self(PhysicalConstants::splat(simd, &constants.0))
-    }
-
-    /// The constants of one body in each lane.
-    #[inline(always)]
-    pub fn gather<'a>(simd: S, of: impl Fn(usize) -> &'a PlateConstants<f32>) -> Self {
-        Self(PhysicalConstants::gather(simd, |lane| &of(lane).0))
-    }
-}
-
-impl<T: Scalar> Evaluate<T> for PlateConstants<T> {
-    #[inline(always)]
-    fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
-        self.0.evaluate::<false>(u, w)
     }
 }
 
 impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
     #[inline(always)]
     fn terms(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
-        self.evaluate::<true>(u, w)
-    }
-}
-
-impl<T: Scalar> PhysicalConstants<T> {
-    #[inline(always)]
-    fn evaluate<const BLUFF: bool>(&self, u: &Vector3<T>, w: &Vector3<T>) -> ViscousTerms<T> {
         let constant = |value| u.x.constant(value);
         let (zero, one) = (constant(0.0), constant(1.0));
         let tangential2 = u.x * u.x + u.y * u.y;
@@ -324,7 +307,10 @@ impl<T: Scalar> PhysicalConstants<T> {
         let attached = one / (one + stall.exp());
 
         // Pressure point and its velocity. Separated flow presses on the center.
-        let travel = self.pressure_travel * attached * chord * per_speed;
+        // In creeping flow there is no such point: a body keeps its tilt. All of the travel is there from
+        // Re = 100 on, where the calibration begins.
+        let inertial = (constant(1.1) * re / (re + constant(10.0))).min(one);
+        let travel = self.pressure_travel * attached * chord * per_speed * inertial;
         let arm = Vector3::new(travel * u.x, travel * u.y, zero);
         let vz = u.z + w.x * arm.y - w.y * arm.x;
         let v_speed = (tangential2 + vz * vz).sqrt();
@@ -369,21 +355,7 @@ impl<T: Scalar> PhysicalConstants<T> {
         let dynamic = self.dynamic_area * v_speed;
         let induced =
             self.induced_drag * lift * lift / (aspect * (dynamic + constant(0.3) * lift).max(tiny));
-        let plate = dynamic * (edgewise + normal * sine2) + induced;
-
-        // Drag of a bluff body on its shadow: Clift & Gauvin without the Stokes term.
-        let drag = if BLUFF {
-            let shadow_speed = (self.shadow2.x * u.x * u.x
-                + self.shadow2.y * u.y * u.y
-                + self.shadow2.z * u.z * u.z)
-                .sqrt();
-            let log_re = (speed * self.bluff_reynolds_scale).max(constant(1e-3)).ln();
-            let bluff = constant(3.6) * (log_re * constant(-0.313)).exp()
-                + self.bluff_plateau / (one + constant(42500.0) * (log_re * constant(-1.16)).exp());
-            self.plate_share * plate + shadow_speed * bluff
-        } else {
-            plate
-        };
+        let drag = dynamic * (edgewise + normal * sine2) + induced;
 
         // Damping. √(Re² + 1) keeps the low-Reynolds increase finite in a body at rest, where the
         // creeping resistance has long taken over.
@@ -396,13 +368,10 @@ impl<T: Scalar> PhysicalConstants<T> {
             drag,
             creeping: self.creeping,
             translational_lift: by_angle,
-            rotational_lift: if BLUFF {
-                by_spin + w * self.magnus
-            } else {
-                by_spin
-            },
+            rotational_lift: by_spin,
             arm,
             arm_moves: true,
+            offset: Vector3::repeat(zero),
             damping: Vector3::new(
                 self.damping_u.x * by_speed + self.damping_w.x * spin + self.creeping_spin.x,
                 self.damping_u.y * by_speed + self.damping_w.y * spin + self.creeping_spin.y,

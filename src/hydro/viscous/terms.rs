@@ -18,6 +18,9 @@ pub(crate) struct ViscousTerms<T> {
     pub rotational_lift: Vector3<T>,
     /// From the pressure point to the planform's center: z is 0.
     pub arm: Vector3<T>,
+    /// From the planform's center to the point that the whole force acts on and whose velocity it
+    /// resists, if that is not the center: a lever like that to the center itself.
+    pub offset: Vector3<T>,
     /// Whether the pressure point's own velocity, due to `arm`, enters v. Such a law is passive;
     /// without it the torque of the pressure can pump energy.
     pub arm_moves: bool,
@@ -37,6 +40,7 @@ impl<T: Scalar> ViscousTerms<T> {
             translational_lift: zero,
             rotational_lift: zero,
             arm: zero,
+            offset: zero,
             arm_moves: true,
             damping: zero,
         }

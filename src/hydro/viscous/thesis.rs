@@ -165,6 +165,7 @@ impl<T: Scalar> Evaluate<T> for ThesisConstants<T> {
             translational_lift: turning * translational,
             rotational_lift: w * rotational,
             arm: pressure_arm(u, self.major),
+            offset: Vector3::repeat(speed.constant(0.0)),
             arm_moves: false,
             damping: Vector3::new(
                 self.damping_u.x * speed + self.damping_w.x * spin + self.creeping_spin.x,

@@ -22,6 +22,8 @@ fn sphere(radius: f64, density: f64) -> (ImmersedBody, DryMass) {
         semi_axes: Vector3::repeat(radius),
     };
     let half = Vector3::repeat(0.5 * proxy.volume());
+    // Its law knows nothing but the proxy.
+    body.hydro.bluff = None;
     body.hydro.volume = proxy.volume();
     body.hydro.proxy = proxy;
     body.hydro.added_mass = AddedMass::diagonal(half, Vector3::zeros());

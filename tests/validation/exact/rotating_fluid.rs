@@ -46,6 +46,7 @@ fn a_free_sphere_is_spun_up() {
     let flow = FlowSample {
         velocity: Vector::ZERO,
         vorticity: Vector::X * (2.0 * RATE),
+        ..FlowSample::default()
     };
     let rate = f64::from(RATE);
     for start in [0.0, rate, -2.0 * rate] {

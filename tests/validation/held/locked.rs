@@ -5,9 +5,9 @@ use rapier3d_immersed::flow::Uniform;
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
 
-/// A ball that cannot translate, in a wind of 2 m/s, spinning at 10 rad/s: the fluid can only brake it. The
-/// read-out's torque at the start, −1.36·10⁻⁵ N·m, over the ball's 3.45·10⁻⁵ kg·m² leaves 9.3 rad/s after
-/// two seconds.
+/// A ball that cannot translate, in a wind of 2 m/s, spinning at 10 rad/s: the fluid can only brake it, by
+/// creeping flow with 0.04/s (1.36·10⁻⁶ N·m·s over the ball's 3.45·10⁻⁵ kg·m²) and by friction with
+/// ½ρ 0.005 u (8π/3)R⁴/I = 0.55/s: 10 e^−1.18 = 3.1 rad/s are left after two seconds.
 #[test]
 fn a_held_ball_in_wind_is_braked() {
     for hz in [30.0, 60.0, 240.0, 1000.0] {
@@ -26,12 +26,14 @@ fn a_held_ball_in_wind_is_braked() {
             immersion.step(&mut world);
         }
         let spin = world.bodies[ball].angvel().z;
-        assert!((9.0..9.5).contains(&spin), "{hz}: {spin}");
+        assert!((2.9..3.3).contains(&spin), "{hz}: {spin}");
     }
 }
 
 /// A tilted rod with a locked axis about which it turns at 6 rad/s for ever, which drives the rest: the
-/// others stay below ten times that. (What a lock with a velocity does to the energy has no bound but that.)
+/// others stay below twenty-five times that. (What a lock with a velocity does to the energy has no bound but
+/// that. In water the rod comes to lie almost across the locked axis and spins about itself, where little
+/// brakes it, with 89 rad/s at this step and 47 at an eighth of it.)
 #[test]
 fn a_driven_rod_does_not_run_away() {
     for (fluid, locks) in [
@@ -53,7 +55,7 @@ fn a_driven_rod_does_not_run_away() {
         for _ in 0..600 {
             immersion.step(&mut world);
             let spin = world.bodies[rod].angvel();
-            assert!(spin.length() < 60.0, "{spin}");
+            assert!(spin.length() < 150.0, "{spin}");
         }
     }
 }
