@@ -5,6 +5,9 @@ use rapier3d::na::{Matrix3, Vector3};
 use std::collections::HashMap;
 use std::hash::Hash;
 
+/// Pairs of vertices and faces that are compared to find out whether a body is convex.
+const MOST_COMPARED: usize = 400_000;
+
 /// A closed triangle mesh whose normals point out of the body, into the fluid. It is in f64, because
 /// everything the fluid feels of a shape is computed from it once.
 ///
@@ -197,6 +200,22 @@ impl Surface {
             .sum()
     }
 
+    /// Whether the surface is seen to bound one convex body: `false` also where finding out would take long.
+    pub(crate) fn is_seen_convex(&self) -> bool {
+        let (vertices, triangles) = (self.vertices.len(), self.triangles.len());
+        // Euler's formula holds for one body; two that lie in the same place have no face between them either.
+        if vertices * triangles > MOST_COMPARED || vertices != triangles / 2 + 2 {
+            return false;
+        }
+        let rounding = 1e-9 * self.size();
+        self.corners().all(|[a, b, c]| {
+            let normal = (b - a).cross(&(c - a));
+            let highest = rounding * normal.norm();
+            let below = |v: &Vector3<f64>| (v - a).dot(&normal) <= highest;
+            self.vertices.iter().all(below)
+        })
+    }
+
     /// Each edge must be used once in each direction.
     fn check_closed(&self) -> Result<(), Error> {
         let mut uses: HashMap<(u32, u32), i32> = HashMap::with_capacity(self.triangles.len() * 2);
@@ -269,6 +288,36 @@ mod tests {
     fn tetrahedron() -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
         let v = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
         (v, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    }
+
+    /// A tetrahedron is convex; with a vertex pushed in through the face before it, or put together from two, it is not.
+    #[test]
+    fn convex_bodies_are_known() {
+        let (v, t) = tetrahedron();
+        let one = Surface::new(&v, &t).unwrap();
+        assert!(one.is_seen_convex());
+        let mut twice = one.clone();
+        twice.append(&one);
+        assert!(!twice.is_seen_convex());
+        let beside = one.map(|v| v + Vector3::x() * 3.0);
+        let mut apart = one.clone();
+        apart.append(&beside);
+        assert!(!apart.is_seen_convex());
+        // The far face has a vertex in its middle, at the height of a dent or of a cap.
+        for (height, convex) in [(-0.1, false), (0.1, true)] {
+            let mut vertices = v.clone();
+            vertices.push(Vector3::repeat((1.0 + height) / 3.0));
+            let triangles = [
+                [0, 2, 1],
+                [0, 1, 3],
+                [0, 3, 2],
+                [1, 2, 4],
+                [2, 3, 4],
+                [3, 1, 4],
+            ];
+            let surface = Surface::new(&vertices, &triangles).unwrap();
+            assert_eq!(surface.is_seen_convex(), convex, "{height}");
+        }
     }
 
     /// Unit corner tetrahedron: V = 1/6, centroid ¼, ∫x² dV = 1/60, ∫xy dV = 1/120.

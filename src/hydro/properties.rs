@@ -91,14 +91,16 @@ impl HydroProperties {
         shadows = shadows.inf(&boxed);
         // Where parts touch or overlap, or a surface is folded, lines cross it more than twice: what no fluid
         // reaches counts once.
-        let around = Silhouette::around(surface, integrals.centroid, &axes);
-        for (shadow, silhouette) in shadows.iter_mut().zip(&around) {
-            if *shadow > silhouette.area * (1.0 + FOLDED) {
-                *shadow = silhouette.area;
+        if !surface.is_seen_convex() {
+            let around = Silhouette::around(surface, integrals.centroid, &axes);
+            for (shadow, silhouette) in shadows.iter_mut().zip(&around) {
+                if *shadow > silhouette.area * (1.0 + FOLDED) {
+                    *shadow = silhouette.area;
+                }
             }
-        }
-        if planform.area > around[2].area * (1.0 + FOLDED) {
-            planform.unfold(&around[2], &integrals);
+            if planform.area > around[2].area * (1.0 + FOLDED) {
+                planform.unfold(&around[2], &integrals);
+            }
         }
         let proxy = rounded(ellipsoid_with_shadows(shadows));
         let bluff = (proxy.semi_axes.z > THIN * proxy.semi_axes.y)
