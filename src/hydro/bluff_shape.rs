@@ -3,30 +3,6 @@
 //! All of it is read off the body's geometry, from its relief along its principal axes; nothing
 //! asks what kind of shape it is. What is inside does not count, so that a solid may be one part or be put
 //! together from many that touch or overlap.
-//!
-//! # The drag coefficient
-//!
-//! For motion along an axis, on the shadow along it, at Re 10⁴ to 10⁵ (below, and past the drag crisis, see
-//! [`viscous`](crate::hydro::viscous)):
-//!
-//! ```text
-//! C_D = 0.32 ⟨s²⟩ + 0.58 s_e² + 0.75 d  +  (b₀ + b₁ (a − 1)/(a + 10)) · (1 − s_e² T) · B
-//! ```
-//!
-//! * s is the cosine between the surface's normal and the motion: s² is Newton's pressure, ⟨⟩ its mean over
-//!   the shadow's windward side, s_e² its mean along the outline. On a flat face and a cone both are alike; a
-//!   round shoulder (s_e = 0) lets the flow past with suction there.
-//! * d is the mean depth of hollows on the windward side, in which the fluid is at rest; the pressure acts on
-//!   the lid over them, the windward side's hull along both axes.
-//! * the wake's suction is b₀ for a round shadow, and grows to b₀ + b₁ for an endlessly long one, a the
-//!   ratio of the outline's two radii of gyration.
-//! * behind a sharp windward edge the flow attaches again to sides that are long enough,
-//!   T = l⁴/(l⁴ + 1.3⁴), l the mean length along the motion over the outline's minor width;
-//! * a lee side that closes more gently than a sphere's has a smaller wake, B = min(1, 2⟨s²⟩)^0.65, with its
-//!   own ⟨s²⟩.
-//!
-//! The numbers were fitted to some published bodies and tested on others: `tests/validation/bluff/table.rs`
-//! has both, `docs/bluff-bodies.md` shows them.
 
 use crate::error::Error;
 use crate::geometry::{Ellipsoid, Relief, Seen, Surface};
@@ -50,6 +26,30 @@ const ROUND: (f64, f64) = (0.05, 0.3);
 
 /// What the law of bluff bodies knows of one. The axes are those of the planform; of two entries the first is
 /// for motion along, the second for motion against an axis.
+///
+/// # The drag coefficient
+///
+/// For motion along an axis, on the shadow along it, at Re 10⁴ to 10⁵ (below, and past the drag crisis, see
+/// [`PhysicalLaw`](crate::PhysicalLaw)):
+///
+/// ```text
+/// C_D = 0.32 ⟨s²⟩ + 0.58 s_e² + 0.75 d  +  (b₀ + b₁ (a − 1)/(a + 10)) · (1 − s_e² T) · B
+/// ```
+///
+/// * s is the cosine between the surface's normal and the motion: s² is Newton's pressure, ⟨⟩ its mean over
+///   the shadow's windward side, s_e² its mean along the outline. On a flat face and a cone both are alike; a
+///   round shoulder (s_e = 0) lets the flow past with suction there.
+/// * d is the mean depth of hollows on the windward side, in which the fluid is at rest; the pressure acts on
+///   the lid over them, the windward side's hull along both axes.
+/// * the wake's suction is b₀ = 0.28 for a round shadow, and b₁ = 0.68 more for an endlessly long one, a the
+///   ratio of the outline's two radii of gyration.
+/// * behind a sharp windward edge the flow attaches again to sides that are long enough,
+///   T = l⁴/(l⁴ + 1.3⁴), l the mean length along the motion over the outline's minor width;
+/// * a lee side that closes more gently than a sphere's has a smaller wake, B = min(1, 2⟨s²⟩)^0.65, with its
+///   own ⟨s²⟩.
+///
+/// The numbers were fitted to some published bodies and tested on others: `tests/validation/bluff/table.rs`
+/// has both, `docs/bluff-bodies.md` shows them.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
@@ -86,8 +86,8 @@ impl BluffShape {
             third_moment: Vector3::zeros(),
             friction_moment: Vector3::zeros(),
         };
-        let mut slopes = [[[Vector2::zeros(); 2]; 3]; 2];
-        for axis in 0..3 {
+        let mut slopes = [[[Vector2::zeros(); 2]; 2]; 3];
+        for (axis, slopes) in slopes.iter_mut().enumerate() {
             let frame = axes * frame_along(axis);
             let along = Relief::new(surface, center, &frame);
             let against = along.turned();
@@ -106,7 +106,7 @@ impl BluffShape {
                 let point = side.pressure_point * share + side.middle * (1.0 - share);
                 shape.pressure_point[sign][axis][first] = flip * point.x;
                 shape.pressure_point[sign][axis][second] = point.y;
-                slopes[sign][axis] = [side.moment_slope * flip, side.force_slope];
+                slopes[sign] = [side.moment_slope * flip, side.force_slope];
                 let mut add = |i: usize, [square, cube, arm]: [f64; 3]| {
                     shape.second_moment[i] += square;
                     shape.third_moment[i] += cube;
@@ -119,8 +119,8 @@ impl BluffShape {
         }
         // Moving a little to one side as well: of the force that the law has across, the windward faces have
         // their share at a point of their own, and the rest acts where the flow across acts alone.
-        for (sign, slopes) in slopes.iter().enumerate() {
-            for (axis, [moment, force]) in slopes.iter().enumerate() {
+        for (axis, slopes) in slopes.iter().enumerate() {
+            for (sign, [moment, force]) in slopes.iter().enumerate() {
                 let mut arm = 0.0;
                 for (i, across) in [(axis + 1) % 3, (axis + 2) % 3].into_iter().enumerate() {
                     let whole = shape.drag_area(across) * shape.share(across, axis).sqrt();

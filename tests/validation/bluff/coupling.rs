@@ -6,6 +6,7 @@ use crate::support::{solid_box, sphere};
 use rapier3d_immersed::flow::FlowSample;
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::Vector;
+use rapier3d_immersed::training::{BodyInWorld, BodyState};
 use rapier3d_immersed::{
     AddedMass, DryMass, Fluid, FreeBody, ImmersedBody, PhysicalLaw, ViscousLaw,
 };
@@ -121,6 +122,14 @@ fn a_dense_ball_sinks_straight() {
     let aside = free.position.x.hypot(free.position.z);
     assert!(aside < 1e-6 * depth, "{}", free.position);
     assert!(free.angular_velocity().norm() < 1e-6);
+
+    // In single precision, through rapier.
+    let start = BodyState::default();
+    let mut world = BodyInWorld::new(body, &mass, Fluid::WATER, &start, 1.0 / 60.0, 9.81).unwrap();
+    (0..3600).for_each(|_| world.step());
+    let at = world.state().position;
+    assert!((at.y / free.position.y - 1.0).abs() < 1e-3, "{at}");
+    assert!(at.x.hypot(at.z) < 1e-4 * depth, "{at}");
 }
 
 /// A fluid that speeds up as a whole carries a neutrally buoyant body along exactly, whatever its shape,
