@@ -75,8 +75,13 @@ pub struct BluffShape {
 }
 
 impl BluffShape {
-    /// Of a surface with this center and these principal axes.
-    pub(super) fn new(surface: &Surface, center: Vector3<f64>, axes: &Rotation3<f64>) -> Self {
+    /// Of a surface with this center and these principal axes. One that is `convex` has no hollows to look for.
+    pub(super) fn new(
+        surface: &Surface,
+        center: Vector3<f64>,
+        axes: &Rotation3<f64>,
+        convex: bool,
+    ) -> Self {
         let mut shape = Self {
             shadow: Vector3::zeros(),
             drag: [Vector3::zeros(); 2],
@@ -91,7 +96,10 @@ impl BluffShape {
             let frame = axes * frame_along(axis);
             let along = Relief::new(surface, center, &frame);
             let against = along.turned();
-            let sides = [Side::new(&along), Side::new(&against)];
+            let sides = [
+                Side::new(&along, &against, convex),
+                Side::new(&against, &along, convex),
+            ];
             shape.shadow[axis] = sides[0].area;
             for (sign, (side, lee)) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])]
                 .into_iter()
@@ -221,10 +229,11 @@ struct Side {
 }
 
 impl Side {
-    fn new(relief: &Relief) -> Self {
+    /// `turned` is the relief from the other side.
+    fn new(relief: &Relief, turned: &Relief, convex: bool) -> Self {
         let n = Relief::lines();
-        let lid = Lid::new(relief);
-        let back = Lid::new(&relief.turned());
+        let lid = Lid::new(relief, convex);
+        let back = Lid::new(turned, convex);
         let [du, dv] = relief.step();
         let cell = du * dv;
         let (mut area, mut pressure, mut depth, mut length) = (0.0, 0.0, 0.0, 0.0);
@@ -337,12 +346,14 @@ struct Lid {
 }
 
 impl Lid {
-    fn new(relief: &Relief) -> Self {
+    fn new(relief: &Relief, convex: bool) -> Self {
         let n = Relief::lines();
-        let mut heights = vec![f64::NEG_INFINITY; n * n];
+        let height = |i: usize| relief.above(i % n, i / n).map(|seen| seen.height);
+        let on_surface = |i: usize| height(i).unwrap_or(f64::NEG_INFINITY);
+        let mut heights: Vec<f64> = (0..n * n).map(on_surface).collect();
         let [du, dv] = relief.step();
         let mut line = Vec::with_capacity(n);
-        for i in 0..n {
+        for i in 0..if convex { 0 } else { n } {
             for along_row in [true, false] {
                 let index = |k: usize| if along_row { (k, i) } else { (i, k) };
                 line.clear();

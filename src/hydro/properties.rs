@@ -91,7 +91,8 @@ impl HydroProperties {
         shadows = shadows.inf(&boxed);
         // Where parts touch or overlap, or a surface is folded, lines cross it more than twice: what no fluid
         // reaches counts once.
-        if !surface.is_seen_convex() {
+        let convex = surface.is_seen_convex();
+        if !convex {
             let around = Silhouette::around(surface, integrals.centroid, &axes);
             for (shadow, silhouette) in shadows.iter_mut().zip(&around) {
                 if *shadow > silhouette.area * (1.0 + FOLDED) {
@@ -104,7 +105,7 @@ impl HydroProperties {
         }
         let proxy = rounded(ellipsoid_with_shadows(shadows));
         let bluff = (proxy.semi_axes.z > THIN * proxy.semi_axes.y)
-            .then(|| BluffShape::new(surface, integrals.centroid, &axes));
+            .then(|| BluffShape::new(surface, integrals.centroid, &axes, convex));
         let added_mass = proxy
             .added_mass()
             .rotated(&axes)
