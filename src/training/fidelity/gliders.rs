@@ -83,7 +83,7 @@ impl Glider {
         })
     }
 
-    /// A flight in air: thrown along its chord, which points `pitch` (rad) below the horizon, and tilted by
+    /// A flight in air: thrown along its chord, which points `pitch` (rad) above the horizon, and tilted by
     /// `roll` to a side.
     ///
     /// # Errors
@@ -120,6 +120,58 @@ impl Glider {
         GliderFall {
             ratio: moved.x.hypot(moved.z) / -moved.y,
             upright: fall.moments.iter().all(|m| m.normal.y * up > 0.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Moment;
+    use rapier3d::na::UnitQuaternion;
+
+    /// Four lengths ahead for one down is a glide of 4, whichever side is up; a card that turns over does not glide.
+    #[test]
+    fn ratios_and_turning_over() {
+        let card = Glider::new(0.2).unwrap();
+        let flight = |up: f64, turns: f64| Trajectory {
+            interval: 0.1,
+            moments: (0..50)
+                .map(|step| {
+                    let t = f64::from(step) * 0.1;
+                    let turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), turns * t);
+                    Moment {
+                        position: Vector3::new(2.4 * t, -t, -3.2 * t),
+                        normal: turn * Vector3::y() * up,
+                        long_axis: Vector3::x(),
+                    }
+                })
+                .collect(),
+        };
+        for up in [1.0, -1.0] {
+            let glide = card.measure(&flight(up, 0.1));
+            assert!((glide.ratio - 4.0).abs() < 1e-9 && glide.upright);
+            assert_eq!(card.measure(&flight(up, 0.5)).glide(), 0.0);
+        }
+        assert!(Glider::new(0.6).is_err());
+    }
+
+    /// The card flies the way its center of mass is off the middle, nose up for a positive pitch; it leans
+    /// sideways for a roll.
+    #[test]
+    fn thrown_along_the_chord() {
+        let card = Glider::new(0.2).unwrap();
+        let law = ViscousLaw::default();
+        for (pitch, roll) in [(0.0, 0.0), (0.3f64, 0.0), (-0.3, 0.0), (0.0, 0.1)] {
+            let release = card.experiment(&law, pitch, roll).unwrap().release;
+            let turn = release.orientation(&card.hydro);
+            let ahead = turn * card.mass.center;
+            let along = release.velocity.dot(&ahead) / (THROW * ahead.norm());
+            assert!((along - 1.0).abs() < 1e-6, "{along}");
+            let climbs = release.velocity.y / THROW;
+            assert!((climbs - pitch.sin()).abs() < 1e-6, "{climbs}");
+            let leans = (turn * Vector3::x()).y.abs();
+            assert!((leans - roll.sin()).abs() < 1e-6, "{leans}");
         }
     }
 }

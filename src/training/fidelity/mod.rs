@@ -62,7 +62,7 @@ use rapier3d::na::{Matrix3, Vector3};
 /// first few are already spread out.
 const TILTS: [f64; 6] = [15.0, 60.0, 30.0, 5.0, 45.0, 80.0];
 
-/// Pitch (nose down) and roll of the flights of a glider, degrees, in the order in which they are used.
+/// Pitch (nose up) and roll of the flights of a glider, degrees, in the order in which they are used.
 const FLIGHTS: [[f64; 2]; 6] = [
     [0.0, 0.0],
     [20.0, 2.0],
