@@ -249,7 +249,7 @@ fn open_log(path: &Path) -> (File, HashMap<String, f64>) {
 
 fn print(title: &str, report: &Report) {
     let cost = report.cost();
-    println!("\n{title}: cost {:.3}", cost.total());
+    println!("\n{title}: cost {:.3}: {cost:.3?}", cost.total());
     let percent = |ours: f64, measured: f64| 100.0 * (ours / measured - 1.0);
     for result in &report.plates {
         let plate = &result.plate;
@@ -298,4 +298,43 @@ fn print(title: &str, report: &Report) {
         shares.join(", "),
         report.tumbling_crossing().unwrap_or(f64::NAN)
     );
+    for result in &report.polars {
+        let (plate, polar) = (&result.plate, &result.polar);
+        let (angle, lift) = polar.stall();
+        let kind = if plate.round { "disc" } else { "rectangle" };
+        let along: Vec<String> = [5, 15, 30, 45, 60, 90]
+            .iter()
+            .map(|degree| (degree, polar.points[*degree]))
+            .map(|(degree, at)| {
+                format!(
+                    "{degree}° {:.2}/{:.2}/{:.2}",
+                    at.lift, at.drag, at.pressure_point
+                )
+            })
+            .collect();
+        println!(
+            "  {kind} AR {:.2}: slope {:+.1} %, greatest lift {lift:.2} ({:.2}) at {angle}°, C_D0 {:.3}, pressure at 5° {:.3} ({:.3}), goes back {}, stalled thrust {:.3}; C_L/C_D/x_p: {}",
+            plate.aspect,
+            percent(polar.lift_slope(), plate.lift_slope),
+            plate.max_lift.unwrap_or(f64::NAN),
+            polar.points[0].drag,
+            polar.pressure_point(),
+            plate.pressure_point.unwrap_or(f64::NAN),
+            polar.pressure_goes_back(),
+            polar.stalled_thrust(),
+            along.join(", ")
+        );
+    }
+    for result in &report.gliders {
+        let flights: Vec<String> = result
+            .falls
+            .iter()
+            .map(|fall| format!("{:.1}", fall.glide()))
+            .collect();
+        println!(
+            "  glider, center of mass {:.3} chords ahead: glide ratios {}",
+            result.glider.forward,
+            flights.join(", ")
+        );
+    }
 }

@@ -42,6 +42,13 @@ coefficients! {
     /// [`training::fidelity`](crate::training::fidelity), example `calibrate`. What they reach is in
     /// the table of the example `validation`.
     ///
+    /// **It is no wing's law**: what was fitted falls and turns. A plate that is held in a steady stream (sections
+    /// `polars` and `gliders` of that example) has 1.5 to 2.1 times the lift slope of Helmbold (1942), 1.5 in two
+    /// dimensions and 2.1 at aspect ratio 1; at aspect ratio 6 it stalls at 41° instead of 12° to 15°, with a lift
+    /// coefficient of 3.0 instead of 0.8; its center of pressure at 5° is 0.42 chords behind the leading edge instead
+    /// of 0.17 to 0.25; stalled, it pushes itself along with 20 to 52 % of the normal force, where a real one is
+    /// pressed along its normal alone; and no weighted card glides.
+    ///
     /// Bodies that are not plates blend, by thickness, into bluff bodies with drag coefficients from their own
     /// geometry ([`BluffShape`](crate::BluffShape)), with a Magnus force instead of the plate's lifts.
     pub struct PhysicalLaw {

@@ -1,6 +1,7 @@
 //! Fidelity: falls that were measured, and how well a law reproduces them.
 //!
-//! [`Fidelity`] holds the measured bodies: plates in water, the map of falling discs, falling paper.
+//! [`Fidelity`] holds the measured bodies: plates in water, the map of falling discs, falling paper; plates and
+//! discs in a steady stream, of which wing theory and wind tunnels know the forces; and weighted cards, which glide.
 //! [`Fidelity::run`] drops them all and gives a [`Report`] of the numbers side by side;
 //! [`Report::cost`] is what the search for the default law's coefficients minimises
 //! ([`searched`], [`places`], [`law_at`]).
@@ -11,12 +12,11 @@
 //! ```
 //! use rapier3d_immersed::ViscousLaw;
 //! use rapier3d_immersed::training::Experiment;
-//! use rapier3d_immersed::training::fidelity::{Effort, Fidelity};
+//! use rapier3d_immersed::training::fidelity::{Effort, Fidelity, Plate};
 //!
 //! # fn main() -> Result<(), rapier3d_immersed::Error> {
-//! let mut fidelity = Fidelity::new()?;
 //! // The plates only, from two release angles.
-//! (fidelity.discs, fidelity.papers, fidelity.shares) = Default::default();
+//! let fidelity = Fidelity { plates: Plate::targets()?, ..Fidelity::default() };
 //! let effort = Effort { releases: 2, ..Effort::default() };
 //! let report = fidelity.run(&ViscousLaw::default(), &effort, Experiment::run)?;
 //! // The thickest plate tumbles, and descends at 11.5 cm/s within the law's accuracy.
@@ -30,17 +30,23 @@
 mod coefficients;
 mod cost;
 mod discs;
+mod gliders;
 mod measured_discs;
 mod papers;
 mod plates;
+mod polars;
 mod report;
 
 pub use coefficients::{law_at, places, searched};
 pub use cost::Cost;
 pub use discs::{Disc, DiscFall};
+pub use gliders::{Glider, GliderFall};
 pub use papers::{Cut, PaperDrop, PaperFall, TumblingShare};
 pub use plates::{Plate, PlateFall};
-pub use report::{DiscMap, PaperResult, PlateResult, Report, ShareResult};
+pub use polars::{Polar, PolarPoint, StaticPlate};
+pub use report::{
+    DiscMap, GliderResult, PaperResult, PlateResult, PolarResult, Report, ShareResult,
+};
 
 use super::{Experiment, Release};
 use crate::body::DryMass;
@@ -56,12 +62,22 @@ use rapier3d::na::{Matrix3, Vector3};
 /// first few are already spread out.
 const TILTS: [f64; 6] = [15.0, 60.0, 30.0, 5.0, 45.0, 80.0];
 
+/// Pitch (nose up) and roll of the flights of a glider, degrees, in the order in which they are used.
+const FLIGHTS: [[f64; 2]; 6] = [
+    [0.0, 0.0],
+    [20.0, 2.0],
+    [-20.0, 0.0],
+    [0.0, 2.0],
+    [20.0, 0.0],
+    [-20.0, 2.0],
+];
+
 /// How many falls are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
     /// Seed of what varies from release to release.
     pub seed: u64,
-    /// Release angles per plate and disc, 1 to 6 (default 6).
+    /// Release angles per plate and disc, and flights per glider, 1 to 6 (default 6).
     pub releases: usize,
     /// Drops per set of papers (default 8), and half as many again for the shares of tumbling.
     pub drops: usize,
@@ -77,7 +93,8 @@ impl Default for Effort {
     }
 }
 
-/// Which of the measurements: for fitting to a part and scoring on the rest.
+/// Which of the measurements: for fitting to a part and scoring on the rest. Polars and gliders are in both:
+/// few as they are, each stands for something of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// Every second disc; the plates 1/8, 1/10 and 1/14; every second set of circles.
@@ -107,6 +124,10 @@ pub struct Fidelity {
     pub papers: Vec<PaperDrop>,
     /// Shares of tumbling of paper circles.
     pub shares: Vec<TumblingShare>,
+    /// Plates and discs in a steady stream.
+    pub polars: Vec<StaticPlate>,
+    /// Weighted cards that glide.
+    pub gliders: Vec<Glider>,
 }
 
 impl Fidelity {
@@ -121,6 +142,8 @@ impl Fidelity {
             discs: Disc::measured()?,
             papers: PaperDrop::measured()?,
             shares: TumblingShare::measured()?,
+            polars: StaticPlate::published()?,
+            gliders: Glider::cards()?,
         })
     }
 
@@ -202,7 +225,24 @@ impl Fidelity {
                 Ok(PaperFall::of(&fall(&experiment)?))
             },
         )?;
+        let flights = &FLIGHTS[..effort.releases];
+        let gliders = each(&self.gliders, flights.len(), |glider, _, release| {
+            let [pitch, roll] = flights[release].map(f64::to_radians);
+            let experiment = glider.experiment(law, pitch, roll)?;
+            Ok(glider.measure(&fall(&experiment)?))
+        })?;
+        let polars = self.polars.iter().map(|plate| {
+            Ok(PolarResult {
+                plate: plate.clone(),
+                polar: plate.polar(law)?,
+            })
+        });
         Ok(Report {
+            polars: polars.collect::<Result<_, Error>>()?,
+            gliders: zip(&self.gliders, gliders, |glider, falls| GliderResult {
+                glider: glider.clone(),
+                falls,
+            }),
             plates: zip(&self.plates, plates, |plate, falls| PlateResult {
                 plate: plate.clone(),
                 falls,

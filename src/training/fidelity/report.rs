@@ -1,8 +1,10 @@
 //! Measured and computed side by side.
 
 use super::discs::DiscFall;
+use super::gliders::{Glider, GliderFall};
 use super::papers::{PaperDrop, PaperFall, TumblingShare};
 use super::plates::{Plate, PlateFall};
+use super::polars::{Polar, StaticPlate};
 use crate::motion::Regime;
 
 /// The map's four classes, in the order of [`DiscMap::counts`].
@@ -24,6 +26,10 @@ pub struct Report {
     pub papers: Vec<PaperResult>,
     /// Shares of tumbling of paper circles.
     pub shares: Vec<ShareResult>,
+    /// Plates and discs in a steady stream.
+    pub polars: Vec<PolarResult>,
+    /// Weighted cards that glide.
+    pub gliders: Vec<GliderResult>,
 }
 
 /// One plate.
@@ -60,6 +66,24 @@ pub struct ShareResult {
     pub falls: Vec<PaperFall>,
 }
 
+/// One plate in a steady stream.
+#[derive(Clone, Debug)]
+pub struct PolarResult {
+    /// What is known of it.
+    pub plate: StaticPlate,
+    /// Its forces under the law.
+    pub polar: Polar,
+}
+
+/// One weighted card.
+#[derive(Clone, Debug)]
+pub struct GliderResult {
+    /// The card.
+    pub glider: Glider,
+    /// Its flights.
+    pub falls: Vec<GliderFall>,
+}
+
 fn mean<T>(falls: &[T], quantity: impl Fn(&T) -> f64) -> f64 {
     falls.iter().map(quantity).sum::<f64>() / falls.len() as f64
 }
@@ -92,6 +116,19 @@ impl ShareResult {
     /// Share of the drops that tumbled; NaN if none reached the floor.
     pub fn share(&self) -> f64 {
         mean(&self.falls, |fall| f64::from(u8::from(fall.tumbles)))
+    }
+}
+
+impl GliderResult {
+    /// The mean glide ratio of its flights; those that turned over count as 0.
+    pub fn mean(&self) -> f64 {
+        mean(&self.falls, GliderFall::glide)
+    }
+
+    /// The least glide ratio of its flights.
+    pub fn least(&self) -> f64 {
+        let glides = self.falls.iter().map(GliderFall::glide);
+        glides.fold(f64::INFINITY, f64::min)
     }
 }
 

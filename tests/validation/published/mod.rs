@@ -12,9 +12,11 @@ mod draw;
 mod energy;
 mod falling_plate;
 mod falls;
+mod gliders;
 mod kirchhoff;
 mod papers;
 mod plates;
+mod polars;
 #[path = "../../../examples/support/previous.rs"]
 mod previous;
 pub mod report;
@@ -67,6 +69,10 @@ pub enum SectionName {
     Discs,
     /// Paper circles and hexagons in air
     Papers,
+    /// Plates and discs in a steady stream
+    Polars,
+    /// Weighted cards that glide
+    Gliders,
     /// A maple seed that spins
     Seed,
     /// Drag of spheres and broadside discs over the Reynolds number
@@ -97,6 +103,8 @@ impl SectionName {
             Self::Plates => "plates",
             Self::Discs => "discs",
             Self::Papers => "papers",
+            Self::Polars => "polars",
+            Self::Gliders => "gliders",
             Self::Seed => "seed",
             Self::Drag => "drag",
             Self::AddedMass => "added-mass",
@@ -113,6 +121,8 @@ impl SectionName {
             Self::Plates => "plates in water",
             Self::Discs => "the map of discs",
             Self::Papers => "paper in air",
+            Self::Polars => "static polars",
+            Self::Gliders => "gliders",
             Self::Seed => "maple seed",
             Self::Drag => "drag of spheres and discs",
             Self::AddedMass => "added mass",
@@ -130,6 +140,8 @@ impl SectionName {
             Self::Plates => plates::compute(effort, progress)?,
             Self::Discs => discs::compute(effort, progress)?,
             Self::Papers => papers::compute(effort, progress)?,
+            Self::Polars => polars::compute(effort, progress)?,
+            Self::Gliders => gliders::compute(effort, progress)?,
             Self::Seed => seed::compute(effort, progress)?,
             Self::Drag => drag::compute(effort, progress)?,
             Self::AddedMass => added_mass::compute(effort, progress)?,
