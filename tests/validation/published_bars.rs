@@ -156,6 +156,11 @@ fn drag_of_spheres_and_discs() {
 }
 
 #[test]
+fn drag_of_bodies_that_are_not_plates() {
+    assert_bars(SectionName::Bluff, 31, &[]);
+}
+
+#[test]
 fn added_mass() {
     // Boundary elements: three motions of two plates, and a cube.
     let solved = if cfg!(feature = "bake") { 7 } else { 0 };

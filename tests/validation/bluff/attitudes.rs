@@ -1,6 +1,6 @@
 //! How bodies turn to a fall: broadside, apex first, or any way.
 
-use super::table::revolved;
+use crate::published::bluff::revolved;
 use crate::published::samara::box_mass;
 use crate::support::solid_box;
 use rapier3d_immersed::geometry::Surface;

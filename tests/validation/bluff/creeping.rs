@@ -1,7 +1,7 @@
 //! Creeping flow: what is known exactly, and of cylinders and cubes what was computed and measured.
 
-use super::table::revolved;
 use super::{ellipsoid, to_f64};
+use crate::published::bluff::revolved;
 use crate::support::solid_box;
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};

@@ -1,7 +1,7 @@
 //! The same solid is the same body, however it is put together; and axes that are alike are treated alike.
 
-use super::table::{drag_coefficient, revolved};
 use super::{ellipsoid, to_f64};
+use crate::published::bluff::{drag_coefficient, revolved};
 use crate::support::{solid_box, sphere};
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};

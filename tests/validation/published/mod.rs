@@ -4,6 +4,7 @@
 //! it at full effort and prints it as a table.
 
 mod added_mass;
+pub mod bluff;
 mod discs;
 mod drag;
 #[path = "../../../examples/support/draw.rs"]
@@ -77,6 +78,8 @@ pub enum SectionName {
     Seed,
     /// Drag of spheres and broadside discs over the Reynolds number
     Drag,
+    /// Drag of bodies that are not plates
+    Bluff,
     /// Added mass against closed forms and tables
     AddedMass,
     /// Invariants of an ideal fluid, and a pendulum in it
@@ -107,6 +110,7 @@ impl SectionName {
             Self::Gliders => "gliders",
             Self::Seed => "seed",
             Self::Drag => "drag",
+            Self::Bluff => "bluff",
             Self::AddedMass => "added-mass",
             Self::Kirchhoff => "kirchhoff",
             Self::Energy => "energy",
@@ -125,6 +129,7 @@ impl SectionName {
             Self::Gliders => "gliders",
             Self::Seed => "maple seed",
             Self::Drag => "drag of spheres and discs",
+            Self::Bluff => "drag of bodies that are not plates",
             Self::AddedMass => "added mass",
             Self::Kirchhoff => "ideal fluid",
             Self::Energy => "energy in still fluid",
@@ -144,6 +149,7 @@ impl SectionName {
             Self::Gliders => gliders::compute(effort, progress)?,
             Self::Seed => seed::compute(effort, progress)?,
             Self::Drag => drag::compute(effort, progress)?,
+            Self::Bluff => bluff::compute(effort, progress)?,
             Self::AddedMass => added_mass::compute(effort, progress)?,
             Self::Kirchhoff => kirchhoff::compute(effort, progress)?,
             Self::Energy => energy::compute(effort, progress)?,
