@@ -41,10 +41,12 @@ fn picture(table: &[Entry]) -> Result<String, Failure> {
         "published",
         "ours",
     );
-    panel.logarithmic = true;
-    let ends = (0.25, 2.2);
+    let ends = (0.0, 2.2);
     panel.window = Some([ends, ends]);
-    let diagonal = |factor: f64| vec![(ends.0, factor * ends.0), (ends.1, factor * ends.1)];
+    let diagonal = |factor: f64| {
+        let far = ends.1 / f64::max(factor, 1.0);
+        vec![(ends.0, factor * ends.0), (far, factor * far)]
+    };
     let dots = |fitted: bool| {
         let of = table.iter().filter(|entry| entry.fitted == fitted);
         of.map(|entry| (entry.published, entry.ours)).collect()
