@@ -519,7 +519,8 @@ impl Immersion {
     ///
     /// For a wanted change of velocity Δv the impulse is `𝕄 (Δv, 0)`, or `m·Δv` with m =
     /// [`DryMass::mass`] plus the added mass along Δv. Locked axes keep their velocity. A body that is not in
-    /// the fluid gets rapier's impulse. Wakes the body.
+    /// the fluid gets rapier's impulse. Wakes the body. A link of a multibody does not feel it, as it does not
+    /// feel rapier's: rapier moves it by its multibody's generalized velocities alone. Push links by forces.
     ///
     /// ```
     /// use rapier3d_immersed::rapier3d::prelude::*;
