@@ -8,6 +8,16 @@ use crate::error::Error;
 use crate::geometry::{Ellipsoid, Relief, Seen, Surface};
 use rapier3d::na::{Rotation3, Vector2, Vector3};
 
+/// Depth of hollows, over the outline's minor width, beyond which more of it changes nothing: a hemispherical cup
+/// has a third.
+const DEEPEST: f64 = 0.5;
+/// Relative error of a relief's shadow from which on its lines are too few for the body, and the drag coefficient
+/// of such a body: one of thin parts far from each other.
+const UNRESOLVED: (f64, f64) = (0.25, 1.0);
+/// Friction coefficient of the wetted surface, as of a plate at Re 10⁵, and the sphere's wetted surface over its
+/// shadow: so much of friction is in the drag of bluff bodies as it was measured.
+const FRICTION: f64 = 0.003;
+const SPHERES: f64 = 4.0;
 /// Windward pressure: of the mean of s², and of that at the outline.
 const FRONT: (f64, f64) = (0.32, 0.58);
 /// Pressure in hollows, per mean depth over the outline's minor width.
@@ -33,20 +43,23 @@ const ROUND: (f64, f64) = (0.05, 0.3);
 /// [`PhysicalLaw`](crate::PhysicalLaw)):
 ///
 /// ```text
-/// C_D = 0.32 ⟨s²⟩ + 0.58 s_e² + 0.75 d  +  (b₀ + b₁ (a − 1)/(a + 10)) · (1 − s_e² T) · B
+/// C_D = 0.32 ⟨s²⟩ + 0.58 s_e² + 0.75 d  +  (b₀ + b₁ (a − 1)/(a + 10)) · (1 − s_e² T) · B  +  0.003 (S/A − 4)
 /// ```
 ///
 /// * s is the cosine between the surface's normal and the motion: s² is Newton's pressure, ⟨⟩ its mean over
 ///   the shadow's windward side, s_e² its mean along the outline. On a flat face and a cone both are alike; a
 ///   round shoulder (s_e = 0) lets the flow past with suction there.
 /// * d is the mean depth of hollows on the windward side, in which the fluid is at rest; the pressure acts on
-///   the lid over them, the windward side's hull along both axes.
+///   the lid over them, the windward side's hull along both axes; of the outline's minor width, ½ at most.
 /// * the wake's suction is b₀ = 0.28 for a round shadow, and b₁ = 0.68 more for an endlessly long one, a the
 ///   ratio of the outline's two radii of gyration.
 /// * behind a sharp windward edge the flow attaches again to sides that are long enough,
 ///   T = l⁴/(l⁴ + 1.3⁴), l the mean length along the motion over the outline's minor width;
 /// * a lee side that closes more gently than a sphere's has a smaller wake, B = min(1, 2⟨s²⟩)^0.65, with its
-///   own ⟨s²⟩.
+///   own ⟨s²⟩;
+/// * S/A is the wetted surface over the shadow, 4 for a sphere: friction where there is more of it.
+///
+/// Thin parts far from each other, which the lines of the relief miss, have C_D = 1 on their shadow.
 ///
 /// The numbers were fitted to some published bodies and tested on others: `tests/validation/bluff/table.rs`
 /// has both, `docs/bluff-bodies.md` shows them.
@@ -75,15 +88,17 @@ pub struct BluffShape {
 }
 
 impl BluffShape {
-    /// Of a surface with this center and these principal axes. One that is `convex` has no hollows to look for.
+    /// Of a surface with this center, these principal axes and shadows along them. One that is `convex` has no
+    /// hollows to look for.
     pub(super) fn new(
         surface: &Surface,
         center: Vector3<f64>,
         axes: &Rotation3<f64>,
+        shadow: Vector3<f64>,
         convex: bool,
     ) -> Self {
         let mut shape = Self {
-            shadow: Vector3::zeros(),
+            shadow,
             drag: [Vector3::zeros(); 2],
             roundness: [Vector3::zeros(); 2],
             pressure_point: [[Vector3::zeros(); 3]; 2],
@@ -92,6 +107,7 @@ impl BluffShape {
             friction_moment: Vector3::zeros(),
         };
         let mut slopes = [[[Vector2::zeros(); 2]; 2]; 3];
+        let mut wetted = 0.0;
         for (axis, slopes) in slopes.iter_mut().enumerate() {
             let frame = axes * frame_along(axis);
             let along = Relief::new(surface, center, &frame);
@@ -100,6 +116,12 @@ impl BluffShape {
                 Side::new(&along, &against, convex),
                 Side::new(&against, &along, convex),
             ];
+            let off = (sides[0].area / shadow[axis] - 1.0).abs();
+            if off.is_nan() || off > UNRESOLVED.0 {
+                shape.drag[0][axis] = UNRESOLVED.1;
+                shape.drag[1][axis] = UNRESOLVED.1;
+                continue;
+            }
             shape.shadow[axis] = sides[0].area;
             for (sign, (side, lee)) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])]
                 .into_iter()
@@ -109,6 +131,7 @@ impl BluffShape {
                 let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
                 let flip = if sign == 0 { 1.0 } else { -1.0 };
                 shape.drag[sign][axis] = side.drag(lee);
+                wetted += side.wetted;
                 shape.roundness[sign][axis] = side.roundness() * lee.roundness();
                 let share = side.front() / side.drag(lee).max(1e-9);
                 let point = side.pressure_point * share + side.middle * (1.0 - share);
@@ -125,6 +148,12 @@ impl BluffShape {
                 add(axis, side.turning[2]);
             }
         }
+        for i in 0..3 {
+            let more = (wetted / shape.shadow[i] - SPHERES).max(0.0);
+            for drag in &mut shape.drag {
+                drag[i] += FRICTION * more;
+            }
+        }
         // Moving a little to one side as well: of the force that the law has across, the windward faces have
         // their share at a point of their own, and the rest acts where the flow across acts alone.
         for (axis, slopes) in slopes.iter().enumerate() {
@@ -136,10 +165,16 @@ impl BluffShape {
                     let points = [0, 1].map(|side: usize| shape.pressure_point[side][across][axis]);
                     arm += 0.5 * (moment[i] / whole + rest * 0.5 * (points[0] + points[1]));
                 }
-                // Where hardly any force goes across, its moment says nothing about a point.
-                let reach = shape.shadow.max().sqrt();
-                shape.pressure_point[sign][axis][axis] = arm.clamp(-reach, reach);
+                shape.pressure_point[sign][axis][axis] = arm;
             }
+        }
+        // Where hardly any force goes along or across, its moment says nothing about a point.
+        let back = axes.inverse();
+        let corners = || surface.corners().flatten().map(|v| back * (v - center));
+        let low = corners().fold(Vector3::zeros(), |low: Vector3<f64>, v| low.inf(&v));
+        let high = corners().fold(Vector3::zeros(), |high: Vector3<f64>, v| high.sup(&v));
+        for point in shape.pressure_point.iter_mut().flatten() {
+            *point = point.sup(&low).inf(&high);
         }
         shape
     }
@@ -224,6 +259,8 @@ struct Side {
     /// pressure, m³ and m².
     moment_slope: Vector2<f64>,
     force_slope: Vector2<f64>,
+    /// Outer surface that faces this side most, m².
+    wetted: f64,
     /// About the grid's axes and the axis of the lines: shares of the surface that faces this side most.
     turning: [[f64; 3]; 3],
 }
@@ -243,6 +280,7 @@ impl Side {
         let (mut slope, mut force_slope) = (Vector2::zeros(), Vector2::zeros());
         let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
         let mut turning = [[0.0; 3]; 3];
+        let mut wetted = 0.0;
         for (row, column) in (0..n).flat_map(|row| (0..n).map(move |column| (row, column))) {
             let Some(seen) = relief.above(column, row) else {
                 continue;
@@ -285,6 +323,7 @@ impl Side {
                 let r = Vector3::new(x, y, seen.height);
                 let arm = r.cross(out);
                 let surface = cell / (out.z * f64::from(1 + alike[0] + alike[1]));
+                wetted += surface;
                 for (i, turning) in turning.iter_mut().enumerate() {
                     let lever = arm[i].abs();
                     turning[0] += 0.5 * lever * lever * surface;
@@ -307,13 +346,14 @@ impl Side {
             area,
             pressure: pressure * per,
             edge: edge / outline.max(1e-300),
-            hollow: depth * per / width,
+            hollow: (depth * per / width).min(DEEPEST),
             length: length * per / width,
             slenderness,
             middle,
             pressure_point: acting / pressure.max(1e-300),
             moment_slope: slope,
             force_slope,
+            wetted,
             turning,
         }
     }

@@ -105,7 +105,7 @@ impl HydroProperties {
         }
         let proxy = rounded(ellipsoid_with_shadows(shadows));
         let bluff = (proxy.semi_axes.z > THIN * proxy.semi_axes.y)
-            .then(|| BluffShape::new(surface, integrals.centroid, &axes, convex));
+            .then(|| BluffShape::new(surface, integrals.centroid, &axes, shadows, convex));
         let added_mass = proxy
             .added_mass()
             .rotated(&axes)

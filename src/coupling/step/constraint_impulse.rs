@@ -32,7 +32,8 @@
 //! time, and would turn in each prediction and be braked by what it does not do (a plate on a slider in an ideal
 //! fluid stopped at .7 m/s, a wing on a cart lost two thirds of its speed in 5 s at 60 Hz). Rapier's inertia
 //! is that of body and fluid, so that all of a surprise is learnt. What energy the prediction brings about at
-//! long levers, [`energy_budget`](super::energy_budget) takes away.
+//! long levers, [`energy_budget`](super::energy_budget) takes away. Where a motor drives the system there is no such
+//! bound, and moments are not counted on: plates on motorised sliders ran away to thousands of m/s.
 
 use super::stage_data::{HeldStart, JointAction};
 use super::{contact_mass, held_motion, locked_axes};

@@ -48,6 +48,8 @@ pub(in crate::coupling) struct Jointed {
     pub number: u32,
     /// Whether a spring swings too fast for the step: its last pull says nothing about the next.
     pub unresolved: bool,
+    /// Whether its system has motors.
+    pub motorised: bool,
 }
 
 /// `k dt²/m` from which on a step does not resolve a spring: a tenth of its period, (2π/10)².
@@ -59,6 +61,8 @@ pub(in crate::coupling) struct SystemKind {
     /// Whether something may give it energy: motors, bodies that a user moves, or that are not in the fluid,
     /// contacts.
     pub driven: bool,
+    /// Whether it has motors that do more than brake.
+    pub motorised: bool,
     /// Whether it hangs on something that stands still.
     pub anchored: bool,
     /// Whether it has springs.
@@ -79,6 +83,7 @@ impl SystemKind {
 
     fn join(&mut self, other: Self) {
         self.driven |= other.driven;
+        self.motorised |= other.motorised;
         self.anchored |= other.anchored;
         self.sprung |= other.sprung;
         self.linked |= other.linked;
@@ -136,7 +141,8 @@ impl JointedSystems {
                     let springs = (0..6).any(|axis| joint.spring(axis).0 != 0.0);
                     self.mark(own, |kind| {
                         kind.linked = true;
-                        kind.driven |= springs || !only_brakes(&joint.data);
+                        kind.motorised |= springs || !only_brakes(&joint.data);
+                        kind.driven |= kind.motorised;
                     });
                 }
             }
@@ -151,6 +157,7 @@ impl JointedSystems {
         Some(Jointed {
             number,
             unresolved: member.unresolved,
+            motorised: self.system(number).1.motorised,
         })
     }
 
@@ -273,7 +280,10 @@ impl JointedSystems {
             let mass = sets.bodies.get(body).map_or(0.0, RigidBody::mass);
             self.members[own as usize].unresolved |= stiffness * dt * dt > STIFF * mass;
             if !is_spring(&joint.data) {
-                self.drive(own);
+                self.mark(own, |kind| {
+                    kind.driven = true;
+                    kind.motorised = true;
+                });
             } else if !stored {
                 stored = true;
                 self.mark(own, |kind| kind.sprung = true);

@@ -147,7 +147,13 @@ pub(super) fn prepare(
             JointAction::default()
         }
         _ if joints.is_some_and(|joints| joints.unresolved) => JointAction::default(),
-        _ if jointed => constraint_impulse::of_step(flight, angular, dt),
+        _ if jointed => {
+            let mut expected = constraint_impulse::of_step(flight, angular, dt);
+            if joints.is_some_and(|joints| joints.motorised) {
+                expected.turn = Vector::ZERO;
+            }
+            expected
+        }
         Some(normal) => {
             let impulse = friction::expected(shared, body, flight, normal, solver_mass, sets);
             flight.constraint_impulse = impulse;

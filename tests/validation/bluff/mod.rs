@@ -6,6 +6,7 @@ mod creeping;
 mod jeffery;
 mod magnus;
 mod parts;
+mod sparse;
 mod table;
 
 use rapier3d_immersed::geometry::{Ellipsoid, Surface};
