@@ -14,9 +14,9 @@ const DEEPEST: f64 = 0.5;
 /// Relative error of a relief's shadow from which on its lines are too few for the body, and the drag coefficient
 /// of such a body: one of thin parts far from each other.
 const UNRESOLVED: (f64, f64) = (0.25, 1.0);
-/// Friction coefficient of the wetted surface, as of a plate at Re 10⁵, and the sphere's wetted surface over its
-/// shadow: so much of friction is in the drag of bluff bodies as it was measured.
+/// Friction coefficient of the wetted surface, that of a laminar plate, 1.33 Re^−½ (Blasius), at Re 2·10⁵.
 const FRICTION: f64 = 0.003;
+/// A sphere's wetted surface over its shadow: the friction of so much is in the other terms.
 const SPHERES: f64 = 4.0;
 /// Windward pressure: of the mean of s², and of that at the outline.
 const FRONT: (f64, f64) = (0.32, 0.58);

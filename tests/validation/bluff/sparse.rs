@@ -39,8 +39,8 @@ fn frame(thickness: f32) -> SharedShape {
     SharedShape::compound(bars)
 }
 
-/// Such bodies are described by finite numbers that may be, drag coefficients from 0.3 to 2.5 on shadows that are those
-/// of their parts, with pressure points within their box; and they sink in water like anything else.
+/// Such bodies are described by finite numbers that may be, drag coefficients from 0.3 to 2.5, with
+/// pressure points within their box; and they sink in water like anything else.
 #[test]
 fn thin_parts_far_from_each_other_are_described() {
     for thickness in [0.1, 0.05, 0.02, 0.01, 5e-3, 2e-3] {
@@ -54,14 +54,14 @@ fn thin_parts_far_from_each_other_are_described() {
                 .check()
                 .unwrap_or_else(|error| panic!("{name} {thickness}: {error}"));
             if let Some(bluff) = &hydro.bluff {
-                let box_ = hydro.planform.half_extents * 2.0 + Vector3::repeat(1e-9);
+                let reach = hydro.planform.half_extents * 2.0 + Vector3::repeat(1e-9);
                 for side in 0..2 {
                     for axis in 0..3 {
                         let drag = bluff.drag[side][axis];
                         let at = format!("{name} {thickness} {side} {axis}");
                         assert!((0.3..2.5).contains(&drag), "{at}: {drag}");
                         let point = bluff.pressure_point[side][axis].abs();
-                        assert!((box_ - point).min() >= 0.0, "{at}: {point}");
+                        assert!((reach - point).min() >= 0.0, "{at}: {point}");
                     }
                 }
             }
@@ -102,9 +102,9 @@ fn slivers_have_their_pressure_points_inside() {
             let Some(bluff) = &hydro.bluff else {
                 continue;
             };
-            let box_ = hydro.planform.half_extents * 2.0 + Vector3::repeat(1e-9);
+            let reach = hydro.planform.half_extents * 2.0 + Vector3::repeat(1e-9);
             for point in bluff.pressure_point.iter().flatten() {
-                assert!((box_ - point.abs()).min() >= 0.0, "{aspect}: {point}");
+                assert!((reach - point.abs()).min() >= 0.0, "{aspect}: {point}");
             }
         }
     }
