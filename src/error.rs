@@ -87,6 +87,15 @@ pub enum Error {
         vertices: usize,
     },
 
+    /// A row of a table in text is none.
+    #[error("row {row} of the table cannot be read: {text:?}")]
+    UnreadableRow {
+        /// Number of the row, comments and empty lines aside, from 1.
+        row: usize,
+        /// What stands there.
+        text: String,
+    },
+
     /// A mesh is not watertight, or its triangles are not oriented alike.
     #[error(
         "the mesh is not closed: {open_edges} edges lack a triangle on one side, or have two that face \

@@ -199,6 +199,11 @@ impl Content for ImmersedBody {
         for (_, coefficient) in self.law.coefficients() {
             hash_numbers(hasher, [&coefficient]);
         }
+        for part in &self.parts {
+            hash_numbers(hasher, [&part.hydro.volume, &part.hydro.planform.area]);
+            hash_numbers(hasher, &part.pose.translation.vector);
+            hash_numbers(hasher, &part.pose.rotation.coords);
+        }
     }
 }
 

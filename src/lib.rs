@@ -89,7 +89,7 @@ pub mod reduced;
 pub mod training;
 pub mod turbulence;
 
-pub use body::{DryMass, ImmersedBody};
+pub use body::{DryMass, Hinge, ImmersedBody, Part, Propeller, Thruster};
 pub use coupling::{BodyChanges, Immersion, OnContact, RapierSets, Warning};
 pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Integrator};
 pub use error::Error;
@@ -99,7 +99,10 @@ pub use hydro::boundary_element;
 pub use hydro::viscous::{
     Bounds, Coefficient, ForceFactors, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw,
 };
-pub use hydro::{Accuracy, AddedMass, BluffShape, HydroProperties, Planform, StokesResistance};
+pub use hydro::{
+    Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, HydroProperties, PartLaw,
+    PartMotion, Planform, PolarRow, PolarTable, StokesResistance,
+};
 pub use rapier3d;
 
 /// The examples in the README run as tests.

@@ -1,6 +1,11 @@
 //! The description of an immersed body: its shape as the fluid feels it, its law, and its own mass.
 
 pub(crate) mod from_rapier;
+mod part;
+mod thruster;
+
+pub use part::{Hinge, Part};
+pub use thruster::{Propeller, Thruster};
 
 use crate::error::Error;
 use crate::geometry::Surface;
@@ -23,15 +28,48 @@ pub struct ImmersedBody {
     pub hydro: HydroProperties,
     /// How the viscous force is computed.
     pub law: ViscousLaw,
+    /// The parts whose forces it consists of; without any, the whole is one.
+    pub parts: Vec<Part>,
+    /// What pushes it by itself.
+    pub thrusters: Vec<Thruster>,
 }
 
 impl ImmersedBody {
-    /// A body of this shape under the default law.
-    pub fn new(hydro: HydroProperties) -> Self {
+    /// A body of this shape under the default law, with the parts that the properties name.
+    pub fn new(mut hydro: HydroProperties) -> Self {
+        let parts = std::mem::take(&mut hydro.parts);
         Self {
             hydro,
             law: ViscousLaw::default(),
+            parts: parts.into_iter().map(Part::new).collect(),
+            thrusters: Vec::new(),
         }
+    }
+
+    /// The same body made of these parts, in place of those that it has. Volume, added mass and planform of the
+    /// whole stay what they are; none at all makes it one part again.
+    pub fn with_parts(self, parts: impl IntoIterator<Item = Part>) -> Self {
+        Self {
+            parts: parts.into_iter().collect(),
+            ..self
+        }
+    }
+
+    /// The same body with these thrusters, in place of those that it has.
+    pub fn with_thrusters(self, thrusters: impl IntoIterator<Item = Thruster>) -> Self {
+        Self {
+            thrusters: thrusters.into_iter().collect(),
+            ..self
+        }
+    }
+
+    /// # Errors
+    /// Those of [`HydroProperties::check`], [`ViscousLaw::check`], [`Part::check`] and [`Thruster::check`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.hydro.check()?;
+        self.law.check()?;
+        self.parts.iter().try_for_each(Part::check)?;
+        self.thrusters.iter().try_for_each(Thruster::check)
     }
 
     /// The same body under another law.

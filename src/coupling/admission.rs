@@ -404,7 +404,8 @@ impl Admission<'_> {
                 continue;
             }
             let energy = self.turbulent_energy(state, body);
-            if self.fluid_wakes(state, body, energy, sets.gravity) {
+            let set = state.equipment.as_ref().is_some_and(|own| own.set);
+            if set || self.fluid_wakes(state, body, energy, sets.gravity) {
                 if let Some(state) = self.registry.at_mut(index) {
                     state.flight.turbulent_energy = energy;
                 }

@@ -108,10 +108,14 @@ impl Admission<'_> {
             return Ok(());
         };
         let was = described(before, known.hydro.reference);
-        if was.is_ok_and(|was| was == known.hydro) {
+        let was = was.map(ImmersedBody::new);
+        if was.is_ok_and(|was| was.hydro == known.hydro && was.parts == known.parts) {
             let hydro = HydroProperties::from_body(sets.bodies, sets.colliders, handle)?;
-            let law = known.law;
-            let description = self.registry.describe(ImmersedBody { hydro, law });
+            let body = ImmersedBody {
+                law: known.law,
+                ..ImmersedBody::new(hydro)
+            };
+            let description = self.registry.describe(body);
             if let Some(state) = self.registry.at_mut(index) {
                 state.description = description;
                 state.constants = NONE;

@@ -1,6 +1,7 @@
 //! What the coupling keeps of one body: plain data.
 
 use super::control::BodyControl;
+use super::equipment::Equipment;
 use super::saved_properties::SavedProperties;
 use crate::math::Row;
 use crate::turbulence::SeenFluctuation;
@@ -51,6 +52,8 @@ pub(super) struct BodyState {
     pub refused: Option<u64>,
     pub warned: Warned,
     pub flight: FlightState,
+    /// What a body of parts or engines has besides.
+    pub equipment: Option<Box<Equipment>>,
 }
 
 #[cfg(feature = "serde-serialize")]

@@ -476,7 +476,7 @@ impl Immersion {
     pub fn forces(&self, bodies: &RigidBodySet, handle: RigidBodyHandle) -> Option<ForceBreakdown> {
         let state = self.registry.get(handle)?;
         let body = bodies.get(handle)?;
-        readout::forces(state, &self.constants, &self.environment, body)
+        readout::forces(state, &self.constants, &self.environment, body, None)
     }
 
     /// The mass, center of mass and inertia of a body itself, without any fluid, as its user means them; `None`

@@ -2,21 +2,24 @@
 
 use super::body_state::BodyState;
 use super::environment::Environment;
+use super::equipment::PartState;
 use super::shared_constants::ConstantsTable;
 use crate::dynamics::ForceBreakdown;
 use crate::dynamics::forces::Instant;
+use crate::dynamics::parts::{PartConstants, PartNow};
 use crate::math::spatial::Twist;
-use crate::math::{to_f64, to_quaternion, vector};
+use crate::math::{to_f64, to_quaternion, to_real, vector};
 use rapier3d::dynamics::RigidBody;
-use rapier3d::math::Vector;
+use rapier3d::math::{Real, Vector};
 use rapier3d::na::UnitQuaternion;
 
-/// The forces on a body in the state that it has now; `None` if it is not in the fluid.
+/// The forces on a body, or on one of its parts, in the state that it has now; `None` if it is not in the fluid.
 pub(super) fn forces(
     state: &BodyState,
     constants: &ConstantsTable,
     environment: &Environment,
     body: &RigidBody,
+    part: Option<usize>,
 ) -> Option<ForceBreakdown> {
     state.saved.as_ref()?;
     let c = &constants.get(state.constants)?.constants;
@@ -25,10 +28,28 @@ pub(super) fn forces(
     let mean = environment.mean_flow(body.center_of_mass());
     let plate_axes = |row| to_f64(vector(row));
     let motion = &state.flight.motion;
-    let forces_in = |fluid_velocity: Vector| {
+    let instant = |fluid_velocity: Vector, fluctuation: Real| {
         let linear = body.linvel() - fluid_velocity;
-        let angular = body.angvel() - mean.vorticity * 0.5;
-        let forces = c.forces(&Instant {
+        // Bodies of parts see the vorticity at their parts.
+        let spins = if c.parts.is_empty() { 0.5 } else { 0.0 };
+        let angular = body.angvel() - mean.vorticity * spins;
+        let part = |(i, constants): (usize, &PartConstants<f64>)| {
+            let none = PartState::default();
+            let equipment = state.equipment.as_ref();
+            let part = equipment
+                .and_then(|known| known.parts.get(i))
+                .unwrap_or(&none);
+            let arm = attitude * (constants.place.position * c.length);
+            let seen = environment.mean_flow(body.center_of_mass() + to_real(arm));
+            let velocity = seen.velocity + part.turbulence.fluctuation * fluctuation;
+            PartNow {
+                velocity: to_f64(velocity - fluid_velocity),
+                spin: to_f64(seen.vorticity) * (0.5 * c.length),
+                factors: part.factors.into(),
+                ..PartNow::at_rest(part.deflection.into())
+            }
+        };
+        Instant {
             attitude,
             velocity: Twist {
                 linear: attitude.inverse() * to_f64(linear),
@@ -39,13 +60,26 @@ pub(super) fn forces(
                 angular: plate_axes(motion.angular_rate),
             },
             gravity: to_f64(environment.gravity * body.gravity_scale()),
-        });
-        forces.scaled(&state.control.factors.into())
+            parts: c.parts.iter().enumerate().map(part).collect(),
+        }
     };
-    let mut forces = forces_in(mean.velocity);
+    let factors = state.control.factors.into();
+    if let Some(part) = part {
+        let forces = c.part_forces(part, &instant(mean.velocity, 0.0))?;
+        return Some(forces.scaled(&factors));
+    }
+    let forces_in = |fluid_velocity: Vector, fluctuation: Real| {
+        c.forces(&instant(fluid_velocity, fluctuation))
+            .scaled(&factors)
+    };
+    let mut forces = forces_in(mean.velocity, 0.0);
+    if let Some(equipment) = &state.equipment {
+        forces.thrust = equipment.thrust;
+        forces.buoyancy = forces.buoyancy + equipment.buoyancy;
+    }
     let fluctuation = state.flight.turbulence.fluctuation;
     if environment.turbulence.is_some() && fluctuation != Vector::ZERO {
-        let fluctuating = forces_in(mean.velocity + fluctuation);
+        let fluctuating = forces_in(mean.velocity + fluctuation, 1.0);
         forces.turbulence = fluctuating.viscous() - forces.viscous();
     }
     Some(forces)

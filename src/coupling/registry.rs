@@ -2,6 +2,7 @@
 
 use super::body_state::{BodyState, FlightState, NONE, Warned};
 use super::control::BodyControl;
+use super::equipment::Equipment;
 use crate::body::ImmersedBody;
 #[cfg(feature = "serde-serialize")]
 use crate::error::Error;
@@ -61,8 +62,7 @@ impl Registry {
     /// body that is there twice.
     pub fn restore(&mut self) -> Result<(), Error> {
         for description in self.descriptions.iter() {
-            description.hydro.check()?;
-            description.law.check()?;
+            description.check()?;
         }
         let mut free = self.free.clone();
         free.sort_unstable();
@@ -130,7 +130,13 @@ impl Registry {
             return;
         }
         self.changed = true;
+        let before = self
+            .get_mut(handle)
+            .and_then(|state| state.equipment.take());
+        let body = self.descriptions.get(description);
+        let equipment = body.and_then(|body| Equipment::of(body, before));
         if let Some(state) = self.get_mut(handle) {
+            state.equipment = equipment;
             state.description = description;
             state.constants = NONE;
             state.outdated = true;
@@ -167,6 +173,7 @@ impl Registry {
             refused: None,
             warned: Warned::default(),
             flight: FlightState::default(),
+            equipment,
         });
     }
 

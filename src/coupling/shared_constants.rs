@@ -2,11 +2,13 @@
 
 use super::principal_mass::PrincipalMass;
 use crate::body::from_rapier::inertia;
-use crate::body::{DryMass, ImmersedBody};
+use crate::body::{DryMass, ImmersedBody, Thruster};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
 use crate::dynamics::flow_response::FlowResponse;
+use crate::dynamics::parts::PartConstants;
 use crate::error::Error;
 use crate::fluid::Fluid;
+use crate::hydro::part_law::place::CoupledMass;
 use crate::hydro::viscous::{LawKind, PreparedLaw};
 use crate::interning::{Content, Interned};
 use crate::math::spatial::transform;
@@ -99,25 +101,43 @@ impl<T: Scalar> Scales<T> {
 /// what happens to one never depends on who its neighbours are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Route {
-    /// See [`BodyConstants::symmetric`].
+    /// See [`BodyConstants::symmetric`]; not asked of bodies of parts.
     pub symmetric: bool,
-    law: LawKind,
+    /// The law of the whole; `None` for a body of parts, which have laws of their own.
+    law: Option<LawKind>,
 }
 
 impl Route {
     /// Number of routes.
-    pub const COUNT: usize = 2 * LawKind::ALL.len();
+    pub const COUNT: usize = 2 * LawKind::ALL.len() + 1;
+
+    /// That of bodies of parts.
+    const PARTS: Self = Self {
+        symmetric: false,
+        law: None,
+    };
 
     /// All routes, in the order of their indices.
     pub fn all() -> impl Iterator<Item = Self> {
         let of_law = |law: &LawKind| [false, true].map(|symmetric| (symmetric, *law));
         let all = LawKind::ALL.iter().flat_map(of_law);
-        all.map(|(symmetric, law)| Self { symmetric, law })
+        let all = all.map(|(symmetric, law)| Self {
+            symmetric,
+            law: Some(law),
+        });
+        all.chain([Self::PARTS])
     }
 
     /// Index among all routes, less than [`COUNT`](Self::COUNT).
     pub fn index(self) -> usize {
-        2 * self.law as usize + usize::from(self.symmetric)
+        self.law.map_or(Self::COUNT - 1, |law| {
+            2 * law as usize + usize::from(self.symmetric)
+        })
+    }
+
+    /// Whether it is that of bodies of parts.
+    pub fn has_parts(self) -> bool {
+        self.law.is_none()
     }
 }
 
@@ -138,6 +158,9 @@ pub(super) struct SharedConstants {
     pub heavy_fluid: bool,
     /// Inverse of the 6×6 mass of body and fluid about the center of mass, body axes.
     pub inverse_mass: Matrix6<f64>,
+    /// The parts, if there is more than the whole, and the added mass that couples.
+    pub parts: Vec<PartConstants<f32>>,
+    pub coupled_mass: CoupledMass<f32>,
     /// 𝕄₁₁ by its principal axes.
     pub principal_mass: PrincipalMass,
     /// What rapier is given while nothing touches the body.
@@ -165,9 +188,13 @@ impl SharedConstants {
         let turn = constants.axes.inverse().matrix()
             * whole.fixed_view::<3, 3>(3, 3)
             * constants.axes.matrix();
-        let route = Route {
-            symmetric: constants.symmetric,
-            law: constants.law.kind(),
+        let route = if constants.parts.is_empty() {
+            Route {
+                symmetric: constants.symmetric,
+                law: Some(constants.law.kind()),
+            }
+        } else {
+            Route::PARTS
         };
         let scales = Scales {
             length,
@@ -179,19 +206,24 @@ impl SharedConstants {
             rapier_inertia: Matrix3::from_fn(|i, j| turn[(i.min(j), i.max(j))]),
         };
         let flow_response = FlowResponse::new(&constants, &inverse_mass);
+        let parts: Vec<_> = constants.parts.iter().map(PartConstants::rounded).collect();
+        let coupled_mass = constants.coupled.rounded();
         let step = StepConstants {
             inertia: constants.inertia.rounded(),
             law: constants.law.rounded(),
             scales: scales.rounded(),
             flow_response: flow_response.rounded(),
         };
-        if !step.is_finite() {
+        let finite = parts.iter().all(PartConstants::is_finite) && coupled_mass.is_finite();
+        if !(step.is_finite() && finite) {
             return Err(Error::BeyondSinglePrecision { mass, length });
         }
         Ok(Self {
             free: wet(&constants, dry.mass).to_mass_properties(),
             description,
             body: body.clone(),
+            parts,
+            coupled_mass,
             step,
             axes: to_rotation(UnitQuaternion::from_rotation_matrix(&constants.axes)),
             route,
@@ -202,6 +234,11 @@ impl SharedConstants {
             coupled: coupling > 1e-6 * mass * length,
             constants,
         })
+    }
+
+    /// The thrusters of the body.
+    pub fn thrusters(&self) -> &[Thruster] {
+        &self.body.thrusters
     }
 
     /// The 6×6 mass of body and fluid about the center of mass, body axes.

@@ -19,7 +19,7 @@ use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Version of what is written. Others are refused.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// What is written, in this order.
 #[derive(Serialize)]
@@ -143,6 +143,10 @@ impl BodyState {
         }
         if let Some(left) = &self.left {
             left.check()?;
+        }
+        if let Some(equipment) = &self.equipment {
+            let parts = equipment.parts.len() as f64;
+            Error::check("parts of a body", parts, equipment.is_valid(), "of numbers")?;
         }
         self.flight.check()
     }

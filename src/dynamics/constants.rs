@@ -1,10 +1,12 @@
 //! The constants of one body in one fluid, made once and used in every step.
 
+use super::parts::{BodyFrame, PartConstants, coupled_mass};
 use crate::body::{DryMass, ImmersedBody};
 use crate::error::Error;
 use crate::fluid::Fluid;
+use crate::hydro::AddedMass;
+use crate::hydro::part_law::place::CoupledMass;
 use crate::hydro::viscous::PreparedLaw;
-use crate::hydro::{AddedMass, HydroProperties};
 use crate::math::scalar_struct;
 use rapier3d::na::{Matrix3, Matrix6, Rotation3, Vector3};
 
@@ -63,6 +65,11 @@ pub(crate) struct BodyConstants {
     pub dry: DryMass,
     /// (b² − c²)/(b² + c²), (c² − a²)/(c² + a²), (a² − b²)/(a² + b²) of the proxy's semi-axes.
     pub straining: Vector3<f64>,
+    /// The parts, if there is more than the whole.
+    pub parts: Vec<PartConstants<f64>>,
+    pub coupled: CoupledMass<f64>,
+    /// Density of the fluid, kg/m³.
+    pub density: f64,
 }
 
 impl BodyConstants {
@@ -71,9 +78,8 @@ impl BodyConstants {
     /// [`ViscousLaw::check`](crate::ViscousLaw::check).
     pub fn new(body: &ImmersedBody, dry: &DryMass, fluid: &Fluid) -> Result<Self, Error> {
         dry.check()?;
-        body.law.check()?;
+        body.check()?;
         let hydro = &body.hydro;
-        hydro.check()?;
         let rho = f64::from(fluid.density());
         let about_center = hydro.added_mass_about(dry.center);
         if !about_center.is_physical() {
@@ -98,7 +104,7 @@ impl BodyConstants {
         let center = turn * (hydro.planform.center - dry.center) / length;
         let volume_center = turn * (hydro.centroid - dry.center) / length;
         let munk = body.law.munk_factor(hydro);
-        let isotropic = hydro.thickness() * rho * isotropic_share(hydro) / mass;
+        let isotropic = hydro.thickness() * rho * hydro.isotropic_added_mass() / mass;
         let inertia = InertiaConstants {
             m11,
             m12,
@@ -126,7 +132,19 @@ impl BodyConstants {
         let centered = center.amax() <= 1e-7 && volume_center.amax() * isotropic <= 1e-7;
         let centered = centered && law.centered();
         let symmetric = diagonal(&m11) && diagonal(&m22) && m12.amax() <= 1e-7 && centered;
+        let frame = BodyFrame {
+            center: dry.center,
+            axes,
+            mass,
+            length,
+        };
+        let parts = body.parts.iter();
         Ok(Self {
+            parts: parts
+                .map(|part| PartConstants::new(part, body, fluid, &frame))
+                .collect(),
+            coupled: coupled_mass(body, rho, &frame),
+            density: rho,
             mass,
             length,
             axes,
@@ -150,15 +168,6 @@ impl BodyConstants {
         angular += self.dry.inertia;
         whole
     }
-}
-
-/// The added mass that a body has in every direction, per unit density, m³: the smallest principal one about
-/// the center of volume. A mass that is the same in all directions couples no motion to another, so that
-/// what a law takes off the coupling it may not take off this: a sphere would get a lift `ω × u` that no
-/// potential flow has. Of a thin plate it is next to nothing, and left out. The mean of the three would give a disc that moves edgewise a coupling that it has not.
-fn isotropic_share(hydro: &HydroProperties) -> f64 {
-    let about_volume = hydro.added_mass_about(hydro.centroid).linear;
-    about_volume.symmetric_eigenvalues().min().max(0.0)
 }
 
 /// A symmetric matrix whose lower triangle repeats the upper one to the bit.

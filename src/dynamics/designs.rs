@@ -3,6 +3,7 @@
 use super::constants::BodyConstants;
 use super::integrate::{Load, Motion, substep};
 use super::locked::Locks;
+use super::reaction::Whole;
 use crate::body::{DryMass, ImmersedBody};
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
@@ -106,7 +107,14 @@ fn fly(case: &Case, design: Design, h: f64) -> Option<Vector3<f64>> {
     for _ in 0..(case.seconds / h).round() as usize {
         match design {
             Design::Midpoint(iterations) => {
-                substep::<false, _, _>(&constants.inertia, law, &load, &mut motion, h, iterations);
+                substep::<false, _, _>(
+                    &constants.inertia,
+                    &Whole(law),
+                    &load,
+                    &mut motion,
+                    h,
+                    iterations,
+                );
             }
             Design::ImplicitEuler => implicit_euler(&constants, law, &load, &mut motion, h),
             Design::RungeKutta => runge_kutta(&constants, law, &load, &mut motion, h),

@@ -1,6 +1,7 @@
 //! The force on one body, component by component.
 
 use super::constants::BodyConstants;
+use super::parts::PartNow;
 use crate::hydro::viscous::ForceFactors;
 use crate::hydro::viscous::terms::{Evaluate, ViscousTerms};
 use crate::math::spatial::{Twist, Wrench, cross};
@@ -10,6 +11,10 @@ use rapier3d::na::{UnitQuaternion, Vector3};
 
 /// A force, N, and its moment about the center of mass, N·m, world axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
 pub struct ForceAndTorque {
     /// Force, N.
     pub force: Vector,
@@ -73,6 +78,8 @@ pub struct ForceBreakdown {
     pub damping: ForceAndTorque,
     /// Buoyancy, at the center of the displaced volume.
     pub buoyancy: ForceAndTorque,
+    /// What thrusters do.
+    pub thrust: ForceAndTorque,
     /// Weight, at the center of mass.
     pub weight: ForceAndTorque,
     /// What the fluctuation of the fluid's velocity adds to the viscous force; the components above
@@ -105,6 +112,18 @@ pub(crate) struct Instant {
     pub rate: Twist<f64>,
     /// Gravity that the body feels, m/s², world axes.
     pub gravity: Vector3<f64>,
+    /// What goes on at each part of a body of parts.
+    pub parts: Vec<PartNow<f64>>,
+}
+
+/// Of a velocity in plate axes: 0 edgewise to π/2 broadside.
+fn angle_of_attack(velocity: &Vector3<f64>) -> f32 {
+    let speed = velocity.norm();
+    if speed > 0.0 {
+        (velocity.z.abs() / speed).min(1.0).asin() as f32
+    } else {
+        0.0
+    }
 }
 
 impl BodyConstants {
@@ -133,16 +152,33 @@ impl BodyConstants {
         };
         let buoyancy = now.gravity * -self.displaced_mass;
         let arm = attitude * (self.axes.inverse() * self.buoyancy_arm);
-        let speed = center.norm();
+        let viscous = if self.parts.is_empty() {
+            ForceBreakdown {
+                drag: at_pressure(|t, v| -v.component_mul(&t.creeping) - v * t.drag),
+                translational_lift: at_pressure(|t, v| cross(&t.translational_lift, v)),
+                rotational_lift: at_pressure(|t, v| cross(&t.rotational_lift, v)),
+                damping: world(Wrench {
+                    force: Vector3::zeros(),
+                    torque: -terms.damping.component_mul(w),
+                }),
+                angle_of_attack: angle_of_attack(&center),
+                ..ForceBreakdown::default()
+            }
+        } else {
+            let parts = (0..self.parts.len()).filter_map(|part| self.part_forces(part, now));
+            ForceBreakdown {
+                angle_of_attack: angle_of_attack(&center),
+                ..parts.fold(ForceBreakdown::default(), |sum, part| ForceBreakdown {
+                    drag: sum.drag + part.drag,
+                    translational_lift: sum.translational_lift + part.translational_lift,
+                    rotational_lift: sum.rotational_lift + part.rotational_lift,
+                    damping: sum.damping + part.damping,
+                    ..sum
+                })
+            }
+        };
         ForceBreakdown {
             added_mass: world(self.fluid_inertia(velocity, &now.rate)),
-            drag: at_pressure(|t, v| -v.component_mul(&t.creeping) - v * t.drag),
-            translational_lift: at_pressure(|t, v| cross(&t.translational_lift, v)),
-            rotational_lift: at_pressure(|t, v| cross(&t.rotational_lift, v)),
-            damping: world(Wrench {
-                force: Vector3::zeros(),
-                torque: -terms.damping.component_mul(w),
-            }),
             buoyancy: ForceAndTorque {
                 force: to_real(buoyancy),
                 torque: to_real(arm.cross(&buoyancy)),
@@ -151,13 +187,41 @@ impl BodyConstants {
                 force: to_real(now.gravity * self.dry.mass),
                 torque: Vector::ZERO,
             },
-            turbulence: ForceAndTorque::default(),
-            angle_of_attack: if speed > 0.0 {
-                (center.z.abs() / speed).min(1.0).asin() as f32
-            } else {
-                0.0
-            },
+            ..viscous
         }
+    }
+
+    /// The components of the viscous force on one part, moments about the body's center of mass, and its angle of
+    /// attack; `None` if there is no such part.
+    pub fn part_forces(&self, index: usize, now: &Instant) -> Option<ForceBreakdown> {
+        let (part, at) = (self.parts.get(index)?, now.parts.get(index)?);
+        let turn = now.attitude.inverse();
+        let place = match &part.hinge {
+            Some(hinge) => hinge.turned(&part.place, at.sine, at.cosine),
+            None => part.place,
+        };
+        let spin = turn * at.spin;
+        let relative = Twist {
+            linear: now.velocity.linear - (turn * at.velocity - spin.cross(&place.position)),
+            angular: now.velocity.angular - spin,
+        };
+        let world = |wrench: Wrench<f64>| ForceAndTorque {
+            force: to_real(now.attitude * wrench.force * self.mass),
+            torque: to_real(now.attitude * wrench.torque * (self.mass * self.length)),
+        };
+        let [drag, translational_lift, rotational_lift, damping] = part
+            .law
+            .components(&place, &relative, at.factors)
+            .map(|n| world(n.apply(&relative)));
+        let center = relative.linear + relative.angular.cross(&place.position);
+        Some(ForceBreakdown {
+            drag,
+            translational_lift,
+            rotational_lift,
+            damping,
+            angle_of_attack: angle_of_attack(&place.back(&center)),
+            ..ForceBreakdown::default()
+        })
     }
 
     /// Force and torque of the fluid's own inertia, in the integrator's units: that of 𝕄 less that

@@ -6,10 +6,13 @@ use super::forces::{ForceBreakdown, Instant};
 use super::integrate::{Load, Motion, advance, substeps};
 use super::integrator::Integrator;
 use super::locked::Locks;
+use super::parts::{PartNow, Parts};
+use super::reaction::Whole;
 use crate::body::{DryMass, ImmersedBody};
 use crate::error::Error;
 use crate::flow::{FlowSample, StrainRate};
 use crate::fluid::Fluid;
+use crate::hydro::part_law::Exact;
 use crate::hydro::viscous::ForceFactors;
 use crate::hydro::viscous::force_factors::Factored;
 use crate::math;
@@ -48,6 +51,8 @@ pub struct FreeBody {
     pub control: ForceFactors<f64>,
     /// Center of mass, m.
     pub position: Vector3<f64>,
+    /// Turns of the parts about their hinges, rad; those beyond are zero.
+    deflections: Vec<f64>,
     attitude: UnitQuaternion<f64>,
     /// u and w relative to the fluid at rest, plate axes.
     velocity: Twist<f64>,
@@ -78,6 +83,7 @@ impl FreeBody {
             integrator: Integrator::default(),
             control: ForceFactors::default(),
             position: Vector3::zeros(),
+            deflections: Vec::new(),
             attitude,
             velocity: Twist::zero(0.0),
             rate: Twist::zero(0.0),
@@ -102,6 +108,26 @@ impl FreeBody {
         let (linear, angular) = (self.linear_velocity(), self.angular_velocity());
         self.attitude = orientation * UnitQuaternion::from_rotation_matrix(&self.constants.axes);
         self.set_velocity(linear, angular);
+    }
+
+    /// Turns a part about its [`Hinge`](crate::Hinge), rad. A part without one, and an angle that is no number, change
+    /// nothing.
+    pub fn set_deflection(&mut self, part: usize, angle: f64) {
+        let hinged = self
+            .constants
+            .parts
+            .get(part)
+            .is_some_and(|part| part.hinge.is_some());
+        if hinged && angle.is_finite() {
+            let count = self.deflections.len().max(part + 1);
+            self.deflections.resize(count, 0.0);
+            self.deflections[part] = angle;
+        }
+    }
+
+    /// How far a part is turned about its hinge, rad.
+    pub fn deflection(&self, part: usize) -> f64 {
+        self.deflections.get(part).copied().unwrap_or(0.0)
     }
 
     /// Velocity of the center of mass, m/s, world axes.
@@ -201,13 +227,30 @@ impl FreeBody {
         let inertia = &c.inertia;
         let count = substeps(inertia, &motion, &load, dt, &self.integrator);
         let (most, iterations) = (count as u32, self.integrator.iterations);
-        let law = &Factored {
-            law: &c.law,
-            factors: self.control,
-        };
-        // One body does not need the path for symmetric ones.
         let m = &mut motion;
-        advance::<false, _, _>(inertia, law, &load, m, dt, count, most, iterations);
+        // One body does not need the path for symmetric ones.
+        if c.parts.is_empty() {
+            let law = &Factored {
+                law: &c.law,
+                factors: self.control,
+            };
+            advance::<false, _, _>(inertia, &Whole(law), &load, m, dt, count, most, iterations);
+        } else {
+            let spin = load.fluid_spin;
+            let parts = Parts {
+                constants: &c.parts,
+                coupled: &c.coupled,
+                raise: Exact,
+                now: |part: usize| PartNow {
+                    spin,
+                    factors: self.control,
+                    ..PartNow::at_rest(self.deflection(part))
+                },
+                flows: spin != Vector3::zeros(),
+                deflected: !self.deflections.is_empty(),
+            };
+            advance::<false, _, _>(inertia, &parts, &load, m, dt, count, most, iterations);
+        }
         self.attitude = UnitQuaternion::new_normalize(motion.attitude);
         self.velocity = motion.velocity;
         self.velocity.linear += rotate_back(self.attitude.quaternion(), &stream);
@@ -222,8 +265,33 @@ impl FreeBody {
             velocity: self.velocity,
             rate: self.rate,
             gravity,
+            parts: self.part_states(),
         };
         self.constants.forces(&instant).scaled(&self.control)
+    }
+
+    /// The components of the viscous force on one part in a fluid at rest, moments about the body's center of mass;
+    /// `None` if there is no such part.
+    pub fn part_forces(&self, part: usize) -> Option<ForceBreakdown> {
+        let instant = Instant {
+            attitude: self.attitude,
+            velocity: self.velocity,
+            rate: self.rate,
+            gravity: Vector3::zeros(),
+            parts: self.part_states(),
+        };
+        Some(
+            self.constants
+                .part_forces(part, &instant)?
+                .scaled(&self.control),
+        )
+    }
+
+    fn part_states(&self) -> Vec<PartNow<f64>> {
+        let parts = 0..self.constants.parts.len();
+        parts
+            .map(|part| PartNow::at_rest(self.deflection(part)))
+            .collect()
     }
 
     /// Momentum of body and fluid in plate axes, kg·m/s and kg·m²/s.

@@ -42,11 +42,10 @@
 use super::constants::InertiaConstants;
 use super::integrator::Integrator;
 use super::locked::Locks;
-use crate::hydro::viscous::terms::{Evaluate, safe_inverse};
+use super::reaction::{Frozen, Reaction};
 use crate::math::Scalar;
 use crate::math::spatial::{
-    Twist, Wrench, cross, dot, norm, normalized, rotate, rotate_back, select_lt,
-    select_quaternion_lt, turned,
+    Twist, cross, norm, normalized, rotate, rotate_back, select_lt, select_quaternion_lt, turned,
 };
 use rapier3d::na::{Quaternion, Vector3};
 
@@ -100,7 +99,7 @@ impl<T: Scalar> Load<T> {
     /// The spin that the fluid's strain is worth to an ellipsoid, plate axes:
     /// ωₓ = (b² − c²)/(b² + c²) E_yz and so on (Jeffery 1922).
     #[inline(always)]
-    fn strain_spin(&self, attitude: &Quaternion<T>) -> Vector3<T> {
+    pub fn strain_spin(&self, attitude: &Quaternion<T>) -> Vector3<T> {
         let (n, s) = (&self.stretching, &self.shearing);
         // The columns of E in plate axes, and the rows of what comes out once more: RᵀER.
         let x = rotate_back(attitude, &Vector3::new(n.x, s.z, s.y));
@@ -140,9 +139,9 @@ pub(crate) fn substeps<T: Scalar>(
 
 /// Advances `motion` by one substep `h`, which may be zero.
 #[inline(always)]
-pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
+pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, F: Reaction<T>>(
     inertia: &InertiaConstants<T>,
-    law: &L,
+    fluid: &F,
     load: &Load<T>,
     motion: &mut Motion<T>,
     h: T,
@@ -164,55 +163,14 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     let halfway = start.add_scaled(&way, one).scaled(half);
     middle.linear -= cross(&halfway.angular, &halfway.linear) * turns;
     let mut delta = Twist::zero(h);
-    for _ in 0..iterations.max(law.least_iterations()) {
+    for _ in 0..iterations.max(fluid.least_iterations()) {
         let half_turn = middle.angular * (half * h * inertia.per_length);
-        let attitude = turned(&motion.attitude, &(half_turn * half));
-        let mut fluid_spin = if load.spinning {
-            rotate_back(&attitude, &load.fluid_spin)
-        } else {
-            Vector3::repeat(zero)
+        let frozen = Frozen {
+            start,
+            middle,
+            attitude: turned(&motion.attitude, &(half_turn * half)),
         };
-        if load.straining {
-            fluid_spin += load.strain_spin(&attitude);
-        }
-        let terms = law.terms(
-            &inertia.center_velocity(&middle),
-            &(middle.angular - fluid_spin),
-        );
-        let mut applied = Wrench {
-            force: rotate_back(&attitude, &load.force),
-            torque: Vector3::repeat(zero),
-        };
-        if load.turning {
-            let buoyancy = rotate_back(&attitude, &load.buoyancy);
-            applied.torque =
-                rotate_back(&attitude, &load.torque) + cross(&load.buoyancy_arm, &buoyancy);
-        }
-        if load.spinning {
-            applied.torque += terms.damping.component_mul(&fluid_spin);
-        }
-
-        // z: decay per substep of the motion as it is, and of the rotation about the axis where it
-        // is fastest. θ is just implicit enough that such a decay does not overshoot zero.
-        let u = &middle.linear;
-        let inertial =
-            u.x * u.x * inertia.m11.m11 + u.y * u.y * inertia.m11.m22 + u.z * u.z * inertia.m11.m33;
-        let (s, k) = (&terms.creeping, &terms.damping);
-        let along_x = (s.x * inertia.per_m11.x).max(k.x * inertia.per_m22.x);
-        let along_y = (s.y * inertia.per_m11.y).max(k.y * inertia.per_m22.y);
-        let along_z = (s.z * inertia.per_m11.z).max(k.z * inertia.per_m22.z);
-        let slow = along_x.max(along_y).max(along_z);
-        let pressure = terms.drag * dot(u, u) * safe_inverse(inertial);
-        let z = h * (pressure + slow);
-        let theta = half.max(one - safe_inverse(z));
-        delta = inertia.increment::<SYMMETRIC>(&terms, &start, &middle, &applied, h, theta);
-        if load.locks.any {
-            let (start, middle, push) = (&start, &middle, &applied);
-            let locks = &load.locks;
-            delta = locks.increment(
-                &delta, inertia, &terms, start, middle, push, &attitude, h, theta,
-            );
-        }
+        delta = fluid.increment::<SYMMETRIC>(inertia, load, &frozen, h);
         middle = start.add_scaled(&delta, half);
     }
 
@@ -242,9 +200,9 @@ pub(crate) fn substep<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
 /// Advances `motion` by `dt` in `count` substeps, of which `most` is the largest over the lanes.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
+pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, F: Reaction<T>>(
     inertia: &InertiaConstants<T>,
-    law: &L,
+    fluid: &F,
     load: &Load<T>,
     motion: &mut Motion<T>,
     dt: T,
@@ -259,7 +217,7 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
     for _ in 0..most {
         // Lanes that need fewer substeps than their neighbours stand still.
         let h = h.select_lt(done, count, zero);
-        substep::<SYMMETRIC, T, L>(inertia, law, load, motion, h, iterations);
+        substep::<SYMMETRIC, T, F>(inertia, fluid, load, motion, h, iterations);
         done += one;
     }
     // Whatever goes wrong (a law that adds energy, a fluid at 10⁶ m/s) does not reach rapier: NaN fails
@@ -280,11 +238,13 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, L: Evaluate<T>>(
 
 #[cfg(test)]
 mod tests {
+    use super::super::reaction::Whole;
     use super::*;
     use crate::body::{DryMass, ImmersedBody};
     use crate::dynamics::constants::BodyConstants;
     use crate::fluid::Fluid;
     use crate::hydro::HydroProperties;
+    use crate::hydro::viscous::terms::Evaluate;
     use crate::hydro::viscous::terms::ViscousTerms;
     use rapier3d::math::Vector;
     use rapier3d::na::{Matrix3, Rotation3};
@@ -332,7 +292,7 @@ mod tests {
             };
             let asked = Asked(std::cell::Cell::new(None));
             let inertia = &constants.inertia;
-            substep::<false, _, _>(inertia, &asked, &unloaded(), &mut motion, h, 1);
+            substep::<false, _, _>(inertia, &Whole(&asked), &unloaded(), &mut motion, h, 1);
             let exact = Rotation3::from_scaled_axis(spin * (-0.5 * h)) * velocity;
             let miss = (asked.0.get().unwrap() - exact).norm();
             let across = spin.normalize().cross(&velocity).norm();
@@ -397,7 +357,7 @@ mod tests {
                     trend: Twist::zero(0.0),
                     last: 0.0,
                 };
-                substep::<false, _, _>(inertia, &law, &unloaded(), &mut motion, h, 1);
+                substep::<false, _, _>(inertia, &Whole(&law), &unloaded(), &mut motion, h, 1);
                 let end = [motion.velocity.linear, motion.velocity.angular];
                 let found = end[turns][i] / 1e-3;
                 assert!((found - left).abs() < 1e-9, "{axis} {z}: {found} {left}");
@@ -460,13 +420,22 @@ mod tests {
         };
         let load = unloaded();
         let before = motion.velocity;
-        advance::<false, _, _>(inertia, &NotANumber, &load, &mut motion, 0.01, 1.0, 1, 1);
+        advance::<false, _, _>(inertia, &Whole(&NotANumber), &load, &mut motion, 0.01, 1.0, 1, 1);
         assert_eq!(motion.velocity, before);
         assert_eq!(
             (motion.rate, motion.trend),
             (Twist::zero(0.0), Twist::zero(0.0))
         );
-        advance::<false, _, _>(inertia, &constants.law, &load, &mut motion, 0.01, 1.0, 1, 1);
+        advance::<false, _, _>(
+            inertia,
+            &Whole(&constants.law),
+            &load,
+            &mut motion,
+            0.01,
+            1.0,
+            1,
+            1,
+        );
         assert_ne!(motion.velocity, before);
     }
 }

@@ -48,15 +48,9 @@ impl<T: Scalar> InertiaConstants<T> {
         if SYMMETRIC && terms.arm_moves {
             return self.symmetric_increment(terms, start, middle, load, h, theta);
         }
-        let scale = theta * h;
         let mass = self.mass_matrix();
         let n = self.coupling_matrix(&mass, terms, middle);
-        let system = Blocks {
-            m11: mass.m11 - n.m11 * scale,
-            m12: mass.m12 - n.m12 * scale,
-            m21: mass.m21 - n.m21 * scale,
-            m22: mass.m22 - n.m22 * scale,
-        };
+        let system = mass.less_scaled(&n, theta * h);
         let right = n.apply(start);
         system.solve(&(right + *load).scaled(h))
     }

@@ -20,8 +20,6 @@
 //! energy cannot grow for the same reason as that of a free body, whatever the step. A lock that is put
 //! on Δν itself lets the energy grow by a few per cent in a step that turns the body far.
 
-use super::constants::InertiaConstants;
-use crate::hydro::viscous::terms::ViscousTerms;
 use crate::math::Scalar;
 use crate::math::spatial::{Blocks, Twist, Wrench, product, rotate_back, select_lt, transform};
 use rapier3d::na::{Matrix3, Quaternion, Vector3};
@@ -51,31 +49,20 @@ impl<T: Scalar> Locks<T> {
         }
     }
 
-    /// The increment Δν under the locks; `free` where a body has none.
+    /// The increment Δν under the locks, of the equation `system Δν = right`; `free` where a body has none.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn increment(
         &self,
         free: &Twist<T>,
-        inertia: &InertiaConstants<T>,
-        terms: &ViscousTerms<T>,
+        system: &Blocks<T>,
+        right: &Wrench<T>,
         start: &Twist<T>,
-        middle: &Twist<T>,
-        load: &Wrench<T>,
         attitude: &Quaternion<T>,
         h: T,
         theta: T,
     ) -> Twist<T> {
         let (zero, one) = (h.constant(0.0), h.constant(1.0));
-        let scale = theta * h;
-        let mass = inertia.mass_matrix();
-        let n = inertia.coupling_matrix(&mass, terms, middle);
-        let system = Blocks {
-            m11: mass.m11 - n.m11 * scale,
-            m12: mass.m12 - n.m12 * scale,
-            m21: mass.m21 - n.m21 * scale,
-            m22: mass.m22 - n.m22 * scale,
-        };
         let (q1, q2) = (
             projector(attitude, &self.linear),
             projector(attitude, &self.angular),
@@ -90,7 +77,6 @@ impl<T: Scalar> Locks<T> {
             linear: kept(&self.velocity.linear, &q1, &start.linear),
             angular: kept(&self.velocity.angular, &q2, &start.angular),
         };
-        let right = (n.apply(start) + *load).scaled(h);
         let taken = system.apply(&given);
         let projected = Blocks {
             m11: product(&product(&p1, &system.m11), &p1) + q1,

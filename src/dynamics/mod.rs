@@ -10,6 +10,8 @@ pub(crate) mod integrate;
 mod integrator;
 mod kirchhoff;
 pub(crate) mod locked;
+pub(crate) mod parts;
+pub(crate) mod reaction;
 mod symmetric;
 
 pub use forces::{ForceAndTorque, ForceBreakdown};

@@ -10,6 +10,7 @@ mod check;
 mod ellipsoid;
 #[cfg(feature = "serde-serialize")]
 mod file;
+pub(crate) mod part_law;
 mod planform;
 mod properties;
 mod silhouette;
@@ -19,6 +20,7 @@ pub use accuracy::Accuracy;
 pub use added_mass::AddedMass;
 pub use bluff_shape::BluffShape;
 pub use ellipsoid::StokesResistance;
+pub use part_law::{CustomLaw, Damping, DragBox, PartLaw, PartMotion, PolarRow, PolarTable};
 pub use planform::Planform;
 pub use properties::HydroProperties;
 use silhouette::Silhouette;

@@ -38,6 +38,9 @@ pub struct HydroProperties {
     /// What the law of bodies that are not plates knows of the shape; `None` for a thin plate, and where
     /// nothing but the proxy is known.
     pub bluff: Option<BluffShape>,
+    /// The surfaces that the shape consists of, if it is more than one to the fluid: in the same frame, and
+    /// without parts of their own.
+    pub parts: Vec<HydroProperties>,
 }
 
 impl HydroProperties {
@@ -118,6 +121,7 @@ impl HydroProperties {
             planform,
             proxy,
             bluff,
+            parts: Vec::new(),
         }
     }
 
@@ -156,6 +160,16 @@ impl HydroProperties {
         let semi_axes = &self.proxy.semi_axes;
         let t = ((semi_axes.z / semi_axes.y - THIN) / 0.05).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
+    }
+
+    /// The added mass that a body has in every direction, per unit density, m³: the smallest principal one about
+    /// the center of volume. A mass that is the same in all directions couples no motion to another, so that
+    /// what a law takes off the coupling it may not take off this: a sphere would get a lift `ω × u` that no
+    /// potential flow has. Of a thin plate it is next to nothing, and left out. The mean of the three would give
+    /// a disc that moves edgewise a coupling that it has not.
+    pub(crate) fn isotropic_added_mass(&self) -> f64 {
+        let about_volume = self.added_mass_about(self.centroid).linear;
+        about_volume.symmetric_eigenvalues().min().max(0.0)
     }
 
     /// Displaced volume over the volume of the box around it: π/6 for an ellipsoid, 1 for a box.

@@ -136,7 +136,8 @@ macro_rules! scalar_struct {
                 Self { $($field: $crate::math::fields::splat(simd, &constants.$field),)+ }
             }
 
-            /// The constants of one body in each lane.
+            /// The constants of one body in each lane. Not asked of what only equal bodies are stepped with.
+            #[allow(dead_code)]
             #[inline(always)]
             pub(crate) fn gather<'a>(simd: S, of: impl Fn(usize) -> &'a $name<f32>) -> Self {
                 Self { $($field: $crate::math::fields::gather(simd, |lane| &of(lane).$field),)+ }

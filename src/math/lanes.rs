@@ -277,6 +277,22 @@ impl<S: Simd> Scalar for Lanes<S> {
     fn ceil(self) -> Self {
         Self(self.0.ceil())
     }
+    #[inline(always)]
+    fn by_lane<const I: usize, const O: usize>(
+        inputs: [Self; I],
+        mut of: impl FnMut([f64; I]) -> [f64; O],
+    ) -> [Self; O] {
+        let numbers = inputs.map(Self::numbers);
+        let mut found = [[0.0; MOST_LANES]; O];
+        for lane in 0..Self::COUNT {
+            let of_lane = of(std::array::from_fn(|i| f64::from(numbers[i][lane])));
+            for (row, x) in found.iter_mut().zip(of_lane) {
+                row[lane] = x as f32;
+            }
+        }
+        let simd = inputs[0].0.token();
+        found.map(|row| Self::from_fn(simd, |lane| row[lane]))
+    }
 }
 
 impl<S: Simd> Binary32 for Lanes<S> {

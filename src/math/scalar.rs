@@ -46,6 +46,11 @@ pub trait Scalar:
     fn abs(self) -> Self;
     /// The next whole number that is not less.
     fn ceil(self) -> Self;
+    /// What `of` makes of the numbers of each lane, in f64: for what is no arithmetic, as a look-up.
+    fn by_lane<const I: usize, const O: usize>(
+        inputs: [Self; I],
+        of: impl FnMut([f64; I]) -> [f64; O],
+    ) -> [Self; O];
 }
 
 /// The methods that f64 and f32 have in the standard library.
@@ -82,6 +87,13 @@ macro_rules! standard {
         #[inline(always)]
         fn ceil(self) -> Self {
             self.ceil()
+        }
+        #[inline(always)]
+        fn by_lane<const I: usize, const O: usize>(
+            inputs: [Self; I],
+            mut of: impl FnMut([f64; I]) -> [f64; O],
+        ) -> [Self; O] {
+            of(inputs.map(f64::from)).map(|x| x as $type)
         }
     };
 }

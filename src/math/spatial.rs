@@ -101,6 +101,26 @@ impl<T: Scalar> Blocks<T> {
         }
     }
 
+    /// Adds another matrix.
+    #[inline(always)]
+    pub fn add(&mut self, other: &Self) {
+        self.m11 += other.m11;
+        self.m12 += other.m12;
+        self.m21 += other.m21;
+        self.m22 += other.m22;
+    }
+
+    /// `self − factor · other`
+    #[inline(always)]
+    pub fn less_scaled(&self, other: &Self, factor: T) -> Self {
+        Self {
+            m11: self.m11 - other.m11 * factor,
+            m12: self.m12 - other.m12 * factor,
+            m21: self.m21 - other.m21 * factor,
+            m22: self.m22 - other.m22 * factor,
+        }
+    }
+
     /// Solves `self · x = b` by block elimination. Both pivots are invertible where the
     /// symmetric part of the matrix is positive.
     #[inline(always)]

@@ -147,7 +147,7 @@ fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, contex
         parts.constants,
         context,
         batch,
-        &mut workspace.samples,
+        [&mut workspace.samples, &mut workspace.part_samples],
         &mut workspace.bad_flows,
     );
     let mut outputs = std::mem::take(&mut batch.outputs);
@@ -155,6 +155,7 @@ fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, contex
         states: parts.registry.states(),
         constants: parts.constants,
         disturbances: &batch.disturbances,
+        parts: &batch.parts,
         context,
     };
     integrate(&batch.inputs, &batch.flows, &mut outputs, route, batched);

@@ -32,6 +32,7 @@ pub(super) fn expected(
     shared: &SharedConstants,
     body: &RigidBody,
     flight: &FlightState,
+    user_force: Vector,
     normal: Vector,
     solver_mass: Real,
     sets: &RapierSets,
@@ -41,7 +42,7 @@ pub(super) fn expected(
     let masses = &shared.principal_mass;
     let across = |v: Vector| v - normal * v.dot(normal);
     let weight = sets.gravity * body.gravity_scale() * shared.constants.dry.mass as Real;
-    let push = (flight.fluid_force + body.user_force() + weight) * dt;
+    let push = (flight.fluid_force + user_force + weight) * dt;
     let Some(touch) = touch(body, sets) else {
         return Vector::ZERO;
     };

@@ -74,8 +74,18 @@ impl OnLanes for Integrate<'_> {
         for (number, (inputs, outputs)) in windows.zip(outputs).enumerate() {
             let from = number * WINDOW;
             let flows = self.flows.get(from..from + inputs.len());
-            let order = by_substeps(inputs, batched);
-            for group in order[..inputs.len()].chunks(Lanes::<S>::COUNT) {
+            let mut order = by_substeps(inputs, batched);
+            let order = &mut order[..inputs.len()];
+            // Bodies of parts are advanced beside their equals only.
+            if self.route.has_parts() {
+                order.sort_by_key(|index| inputs[usize::from(*index)].constants);
+            }
+            let equal = |a: &u8, b: &u8| {
+                let constants = |index: &u8| inputs[usize::from(*index)].constants;
+                !self.route.has_parts() || constants(a) == constants(b)
+            };
+            let groups = order.chunk_by(equal);
+            for group in groups.flat_map(|equal| equal.chunks(Lanes::<S>::COUNT)) {
                 // A last group that is not full repeats its last body.
                 let index: [usize; MOST_LANES] =
                     std::array::from_fn(|lane| group[lane.min(group.len() - 1)].into());
@@ -110,6 +120,7 @@ impl OnLanes for Integrate<'_> {
                     motions: std::array::from_fn(|lane| batched.motion(bodies[lane])),
                     constants,
                     symmetric: self.route.symmetric,
+                    parts: self.route.has_parts().then_some(of_first),
                     buoyancy_turns: (0..MOST_LANES).any(|lane| shared(lane).buoyancy_turns),
                     flows,
                     index,

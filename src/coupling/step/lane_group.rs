@@ -1,13 +1,16 @@
 //! One step of the bodies that fit into the machine's registers side by side.
 
 use super::locked_axes;
-use super::stage_data::{Disturbance, SeenFlow, StepInput, StepOutput};
+use super::stage_data::{Disturbance, PartRow, SeenFlow, StepInput, StepOutput};
 use super::substep_matching::Target;
 use super::workspace::Batched;
 use crate::coupling::body_state::{IntegratorState, NONE};
-use crate::coupling::shared_constants::StepConstants;
+use crate::coupling::shared_constants::{SharedConstants, StepConstants};
 use crate::dynamics::integrate::{Load, Motion, advance, substeps};
 use crate::dynamics::locked::Locks;
+use crate::dynamics::parts::{PartNow, Parts};
+use crate::dynamics::reaction::Whole;
+use crate::hydro::part_law::EveryLane;
 use crate::hydro::viscous::force_factors::Factored;
 use crate::hydro::viscous::{ForceFactors, PreparedLaw};
 use crate::math::spatial::{Twist, rotate, rotate_back, select_lt};
@@ -25,6 +28,8 @@ pub(super) struct LaneGroup<'a, S: Simd> {
     pub constants: &'a StepConstants<Lanes<S>>,
     /// Whether their route is that of symmetric bodies.
     pub symmetric: bool,
+    /// What the bodies share, if they are of parts.
+    pub parts: Option<&'a SharedConstants>,
     /// Whether the buoyancy of one has a torque.
     pub buoyancy_turns: bool,
     /// The flow that the bodies of their window see; `None` where nothing flows.
@@ -187,19 +192,51 @@ impl<S: Simd> LaneGroup<'_, S> {
             translational_lift,
         };
         let m = &mut motion;
-        // Most bodies are symmetric plates: they have code of their own, the others share theirs.
-        match (law, self.symmetric) {
-            (PreparedLaw::Plate(law), true) => {
-                let law = Factored { law, factors };
-                advance::<true, _, _>(inertia, &law, &load, m, dt, count, most, iterations);
-            }
-            (law, true) => {
-                let law = Factored { law, factors };
-                advance::<true, _, _>(inertia, &law, &load, m, dt, count, most, iterations);
-            }
-            (law, false) => {
-                let law = Factored { law, factors };
-                advance::<false, _, _>(inertia, &law, &load, m, dt, count, most, iterations);
+        if let Some(shared) = self.parts {
+            let parts = self.part_forces(shared, factors);
+            advance::<false, _, _>(inertia, &parts, &load, m, dt, count, most, iterations);
+        } else {
+            // Most bodies are symmetric plates: they have code of their own, the others share theirs.
+            match (law, self.symmetric) {
+                (PreparedLaw::Plate(law), true) => {
+                    let law = Factored { law, factors };
+                    advance::<true, _, _>(
+                        inertia,
+                        &Whole(&law),
+                        &load,
+                        m,
+                        dt,
+                        count,
+                        most,
+                        iterations,
+                    );
+                }
+                (law, true) => {
+                    let law = Factored { law, factors };
+                    advance::<true, _, _>(
+                        inertia,
+                        &Whole(&law),
+                        &load,
+                        m,
+                        dt,
+                        count,
+                        most,
+                        iterations,
+                    );
+                }
+                (law, false) => {
+                    let law = Factored { law, factors };
+                    advance::<false, _, _>(
+                        inertia,
+                        &Whole(&law),
+                        &load,
+                        m,
+                        dt,
+                        count,
+                        most,
+                        iterations,
+                    );
+                }
             }
         }
 
@@ -253,6 +290,52 @@ impl<S: Simd> LaneGroup<'_, S> {
         self.store(&matched.start_angular, |o| &mut o.start_angular);
         self.store(&force, |o| &mut o.force);
         self.store(&torque, |o| &mut o.torque);
+    }
+
+    /// The forces on the parts of bodies that are alike.
+    #[inline(always)]
+    fn part_forces<'b>(
+        &'b self,
+        shared: &'b SharedConstants,
+        factors: ForceFactors<Lanes<S>>,
+    ) -> Parts<'b, f32, EveryLane<S>, impl Fn(usize) -> PartNow<Lanes<S>>> {
+        let rows = self.batched.parts;
+        let count = shared.parts.len();
+        let first = |lane: usize| self.bodies[lane].first_part as usize;
+        let any = |is: fn(&PartRow) -> bool| {
+            let of = |lane| {
+                rows.get(first(lane)..first(lane) + count)
+                    .unwrap_or_default()
+            };
+            (0..MOST_LANES).any(|lane| of(lane).iter().any(is))
+        };
+        let now = move |i: usize| {
+            let row = |row: fn(&PartRow) -> Row| {
+                let of = |lane| rows.get(first(lane) + i).map_or(Row::default(), row);
+                Lanes::side_by_side(self.simd, of)
+            };
+            let (velocity, spin) = (row(|part| part.velocity), row(|part| part.spin));
+            let [drag, rotational_lift, translational_lift, _] = row(|part| part.factors);
+            PartNow {
+                velocity: vector3(velocity),
+                spin: vector3(spin),
+                factors: ForceFactors {
+                    drag: drag * factors.drag,
+                    rotational_lift: rotational_lift * factors.rotational_lift,
+                    translational_lift: translational_lift * factors.translational_lift,
+                },
+                sine: velocity[3],
+                cosine: spin[3],
+            }
+        };
+        Parts {
+            constants: &shared.parts,
+            coupled: &shared.coupled_mass,
+            raise: EveryLane(self.simd),
+            now,
+            flows: any(|part| part.velocity[..3] != [0.0; 3] || part.spin[..3] != [0.0; 3]),
+            deflected: any(|part| part.velocity[3] != 0.0),
+        }
     }
 
     /// Writes four numbers of each body to its output.

@@ -2,15 +2,16 @@
 
 use super::contact_mass::CloseBodies;
 use super::jointed_systems::JointedSystems;
-use super::stage_data::{Disturbance, JointAction, SeenFlow, StepContext, StepInput};
+use super::stage_data::{Disturbance, JointAction, PartRow, SeenFlow, StepContext, StepInput};
 use super::workspace::Batch;
 use super::{constraint_impulse, contact_mass, friction, held_motion};
 use crate::coupling::body_state::{FlightState, IntegratorState, NONE};
 use crate::coupling::control::SeriesTable;
 use crate::coupling::environment::Environment;
+use crate::coupling::equipment::{Equipment, PartState};
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
-use crate::coupling::shared_constants::{ConstantsTable, Route};
+use crate::coupling::shared_constants::{ConstantsTable, Route, SharedConstants};
 use crate::math::row;
 use rapier3d::dynamics::{LockedAxes, RigidBody, RigidBodyHandle};
 use rapier3d::math::{Real, Rotation, Vector};
@@ -130,7 +131,14 @@ pub(super) fn prepare(
     } else {
         (body.linvel(), body.angvel())
     };
-    let (force, torque) = (body.user_force(), body.user_torque());
+    let (mut force, mut torque) = (body.user_force(), body.user_torque());
+    if let Some(equipment) = &mut state.equipment {
+        let gravity = to.context.gravity * body.gravity_scale();
+        equipment.act(shared, body, flight.fluid_velocity, gravity, dt);
+        let own = equipment.action();
+        force += own.force;
+        torque += own.torque;
+    }
     let (change_linear, change_angular) = if continues {
         (
             beyond_rounding(linear, flight.end_linear),
@@ -155,7 +163,8 @@ pub(super) fn prepare(
             expected
         }
         Some(normal) => {
-            let impulse = friction::expected(shared, body, flight, normal, solver_mass, sets);
+            let impulse =
+                friction::expected(shared, body, flight, force, normal, solver_mass, sets);
             flight.constraint_impulse = impulse;
             flight.constraint_time = dt;
             JointAction {
@@ -196,6 +205,19 @@ pub(super) fn prepare(
     if to.environment.turbulence.is_some() {
         batch.turbulence.push(flight.turbulence);
     }
+    let first_part = batch.parts.len() as u32;
+    if let Some(equipment) = &state.equipment
+        && shared.route.has_parts()
+    {
+        add_parts(
+            shared,
+            equipment,
+            body.center_of_mass(),
+            rapier_attitude,
+            to.environment,
+            batch,
+        );
+    }
     batch.inputs.push(StepInput {
         handle,
         state: index as u32,
@@ -214,12 +236,50 @@ pub(super) fn prepare(
         factors: state.control.factors,
         gravity_scale: body.gravity_scale(),
         disturbance,
+        first_part,
         has_torque: moment != Vector::ZERO,
         rapier_attitude: rapier_attitude.to_array(),
         rapier_linear: row(linear),
         rapier_angular: row(angular),
     });
     Some(shared.route)
+}
+
+/// Adds the parts of a body to its batch. There are as many as its description has.
+fn add_parts(
+    shared: &SharedConstants,
+    equipment: &Equipment,
+    center: Vector,
+    attitude: Rotation,
+    environment: &Environment,
+    batch: &mut Batch,
+) {
+    let length = shared.constants.length as Real;
+    let none = PartState::default();
+    for (i, constants) in shared.parts.iter().enumerate() {
+        let part = equipment.parts.get(i).unwrap_or(&none);
+        let (sine, cosine) = part.deflection.sin_cos();
+        let factors = &part.factors;
+        batch.parts.push(PartRow {
+            velocity: [0.0, 0.0, 0.0, sine],
+            spin: [0.0, 0.0, 0.0, cosine],
+            factors: [
+                factors.drag,
+                factors.rotational_lift,
+                factors.translational_lift,
+                0.0,
+            ],
+        });
+        if environment.moves() {
+            let [x, y, z] = constants.place.position.into();
+            batch
+                .part_points
+                .push(center + attitude * (Vector::new(x, y, z) * length));
+        }
+        if environment.turbulence.is_some() {
+            batch.part_turbulence.push(part.turbulence);
+        }
+    }
 }
 
 /// Whether a body moves along an axis that is locked.

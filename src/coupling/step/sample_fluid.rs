@@ -7,10 +7,10 @@ use crate::coupling::body_state::NONE;
 use crate::coupling::environment::Environment;
 use crate::coupling::shared_constants::ConstantsTable;
 use crate::flow::FlowSample;
-use crate::math::{dispatch, row, vector};
+use crate::math::{Row, dispatch, row, vector};
 use crate::turbulence::LangevinMode;
 use rapier3d::dynamics::RigidBodyHandle;
-use rapier3d::math::Real;
+use rapier3d::math::{Real, Vector};
 
 /// Reynolds number up to which a body is turned by the strain of the fluid, less and less: that is a matter of creeping
 /// flow.
@@ -23,7 +23,7 @@ pub(super) fn sample_fluid(
     constants: &ConstantsTable,
     context: &StepContext,
     batch: &mut Batch,
-    samples: &mut Vec<FlowSample>,
+    [samples, part_samples]: [&mut Vec<FlowSample>; 2],
     bad_flows: &mut Vec<RigidBodyHandle>,
 ) {
     let Batch {
@@ -32,6 +32,9 @@ pub(super) fn sample_fluid(
         points,
         flows,
         turbulence: memories,
+        parts,
+        part_points,
+        part_turbulence,
         ..
     } = batch;
     if flows.is_empty() {
@@ -57,16 +60,39 @@ pub(super) fn sample_fluid(
             }
         }
     }
+    part_samples.clear();
+    part_samples.resize(part_points.len(), FlowSample::default());
+    if let Some(flow) = &environment.flow
+        && !part_points.is_empty()
+    {
+        flow.sample(part_points, environment.time, part_samples);
+    }
     if let Some(layer) = &environment.turbulence {
         let turbulence = StepTurbulence::new(layer, environment, context.dt);
         match layer.mode {
-            LangevinMode::FluidSeen => dispatch(Fluctuate {
-                turbulence: &turbulence,
-                inputs,
-                points,
-                samples,
-                memories,
-            }),
+            LangevinMode::FluidSeen => {
+                dispatch(Fluctuate {
+                    turbulence: &turbulence,
+                    inputs,
+                    points,
+                    samples,
+                    memories,
+                });
+                for (i, input) in inputs.iter().enumerate() {
+                    let Some(shared) = constants.get(input.constants) else {
+                        continue;
+                    };
+                    let first = input.first_part as usize;
+                    let range = first..(first + shared.parts.len()).min(part_points.len());
+                    turbulence.fluctuate_parts(
+                        input,
+                        (points[i], &memories[i]),
+                        &part_points[range.clone()],
+                        &mut part_samples[range.clone()],
+                        &mut part_turbulence[range],
+                    );
+                }
+            }
             LangevinMode::BodyIncrements => {
                 for (i, input) in inputs.iter_mut().enumerate() {
                     let shared = constants.get(input.constants);
@@ -90,7 +116,31 @@ pub(super) fn sample_fluid(
         if !flow.advance(sample) {
             bad_flows.push(input.handle);
         }
+        if part_points.is_empty() {
+            continue;
+        }
+        let Some(shared) = constants.get(input.constants) else {
+            continue;
+        };
+        let half_length = 0.5 * shared.constants.length as Real;
+        let first = input.first_part as usize;
+        let range = first..(first + shared.parts.len()).min(part_points.len());
+        for (part, seen) in parts[range.clone()].iter_mut().zip(&part_samples[range]) {
+            let relative = seen.velocity - vector(flow.velocity);
+            let spin = seen.vorticity * half_length;
+            if (relative + spin).is_finite() {
+                part.velocity = with_last(relative, part.velocity);
+                part.spin = with_last(spin, part.spin);
+            } else {
+                bad_flows.push(input.handle);
+            }
+        }
     }
+}
+
+/// A vector as a row that keeps its last number.
+fn with_last(v: Vector, row: Row) -> Row {
+    [v.x, v.y, v.z, row[3]]
 }
 
 /// A body's disturbance, made if there is none yet.

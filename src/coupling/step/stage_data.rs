@@ -73,6 +73,8 @@ pub(in crate::coupling) struct StepInput {
     pub gravity_scale: Real,
     /// Index of the body's [`Disturbance`], `NONE` if it has none.
     pub disturbance: u32,
+    /// Index of the first of its parts among those of the batch.
+    pub first_part: u32,
     /// Whether a user's torque turns the body.
     pub has_torque: bool,
     /// What rapier has: attitude (plate axes to world, a quaternion) and velocities.
@@ -166,6 +168,17 @@ impl SeenFlow {
         }
         finite
     }
+}
+
+/// What goes on at one part of a body. World axes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::coupling) struct PartRow {
+    /// Velocity of the fluid relative to that at the body's center, m/s, and the sine of the deflection.
+    pub velocity: Row,
+    /// Half the vorticity times L, m/s, and the cosine of the deflection.
+    pub spin: Row,
+    /// Factors on drag, rotational and translational lift.
+    pub factors: Row,
 }
 
 /// What a step makes of a [`StepInput`]. World axes unless said otherwise.

@@ -123,6 +123,51 @@ impl<'a> StepTurbulence<'a> {
     }
 }
 
+impl StepTurbulence<'_> {
+    /// Lets the fluid fluctuate around the parts of a body at `center`, which itself sees what is in `memory`:
+    /// eddies of integral length Λ = k^1.5/ε are seen alike by what is close, with the correlation exp(−r/Λ) of the
+    /// distance to the center. The fluctuations are added to the mean flow in `samples`.
+    pub fn fluctuate_parts(
+        &self,
+        input: &StepInput,
+        (center, memory): (Vector, &TurbulenceMemory),
+        points: &[Vector],
+        samples: &mut [FlowSample],
+        memories: &mut [TurbulenceMemory],
+    ) {
+        let since = memory.since.unwrap_or(self.time);
+        for (i, (point, sample)) in points.iter().zip(samples).enumerate() {
+            let Local { state, eddies, .. } = self.local(*point, since);
+            let own = &mut memories[i];
+            let noise = self.noise(input.handle);
+            // The body's own draws are 0 and 1.
+            let noise = noise.vector(self.number, 2 + i as u32);
+            if own.since.is_none() {
+                own.since = Some(self.time);
+                own.seen = SeenFluctuation::stationary(noise);
+            }
+            let mut seen = own.seen.normalized.to_array();
+            let slip2 = memory.slip.length_squared();
+            let fluctuation = Vector::from_array(pass(&mut seen, &eddies, slip2, noise.to_array()));
+            own.seen.normalized = Vector::from_array(seen);
+            let integral_length = state.kinetic_energy.max(0.0).powf(1.5) / state.dissipation;
+            let distance = point.distance(center);
+            let alike = (-distance / integral_length.max(f32::MIN_POSITIVE)).exp();
+            let mixed =
+                memory.fluctuation * alike + fluctuation * (1.0 - alike * alike).max(0.0).sqrt();
+            if mixed.is_finite() && own.seen.normalized.is_finite() {
+                own.fluctuation = mixed;
+            } else {
+                *own = TurbulenceMemory {
+                    since: own.since,
+                    ..TurbulenceMemory::default()
+                };
+            }
+            sample.velocity += own.fluctuation;
+        }
+    }
+}
+
 /// Lets the fluid's velocity fluctuate around each body, several side by side. All slices are of one
 /// length.
 pub(super) struct Fluctuate<'a> {

@@ -3,7 +3,9 @@
 use super::contact_mass::CloseBodies;
 use super::energy_budget::JointedBodies;
 use super::mean_motion::MeanMotion;
-use super::stage_data::{Disturbance, SavedForces, SeenFlow, StepContext, StepInput, StepOutput};
+use super::stage_data::{
+    Disturbance, PartRow, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
+};
 use crate::coupling::body_state::{BodyState, IntegratorState, TurbulenceMemory};
 use crate::coupling::shared_constants::{ConstantsTable, Route};
 use crate::flow::FlowSample;
@@ -19,6 +21,11 @@ pub(in crate::coupling) struct Batch {
     pub flows: Vec<SeenFlow>,
     /// What the bodies remember of the turbulence; empty where there is none.
     pub turbulence: Vec<TurbulenceMemory>,
+    /// The parts of the bodies, one after the other; where they are; and what they remember of the turbulence. Points
+    /// and memories are there where flows and turbulence are.
+    pub parts: Vec<PartRow>,
+    pub part_points: Vec<Vector>,
+    pub part_turbulence: Vec<TurbulenceMemory>,
     /// What the integration makes of the inputs.
     pub outputs: Vec<StepOutput>,
 }
@@ -42,6 +49,9 @@ impl Batch {
         self.points.clear();
         self.flows.clear();
         self.turbulence.clear();
+        self.parts.clear();
+        self.part_points.clear();
+        self.part_turbulence.clear();
     }
 }
 
@@ -51,6 +61,7 @@ pub(in crate::coupling) struct Batched<'a> {
     pub states: &'a [Option<BodyState>],
     pub constants: &'a ConstantsTable,
     pub disturbances: &'a [Disturbance],
+    pub parts: &'a [PartRow],
     pub context: &'a StepContext,
 }
 
@@ -82,6 +93,7 @@ pub(in crate::coupling) struct Workspace {
     pub jointed: JointedBodies,
     pub moved_by_mean: Vec<MeanMotion>,
     pub samples: Vec<FlowSample>,
+    pub part_samples: Vec<FlowSample>,
     /// Which bodies this step moves, and which the last one moved, by the index of their state: ones, as bytes
     /// that compare fast.
     pub moved: Vec<u8>,

@@ -9,6 +9,7 @@ use super::workspace::{Batch, Workspace};
 use super::{constraint_impulse, contact_mass, energy_budget, locked_axes};
 use crate::body::from_rapier::inertia;
 use crate::coupling::body_state::{FlightState, NONE};
+use crate::coupling::equipment::Equipment;
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::{ConstantsTable, SharedConstants};
@@ -50,6 +51,13 @@ pub(super) fn write_back(batch: &Batch, sets: &mut RapierSets, to: &mut Destinat
             }
             if let Some(turbulence) = batch.turbulence.get(i) {
                 state.flight.turbulence = *turbulence;
+            }
+            if let Some(equipment) = &mut state.equipment {
+                let memories = batch.part_turbulence.get(input.first_part as usize..);
+                let parts = equipment.parts.iter_mut();
+                for (part, memory) in parts.zip(memories.unwrap_or_default()) {
+                    part.turbulence = *memory;
+                }
             }
         }
         if let Some(saved) = write_body(input, output, (batch, i), sets, to) {
@@ -102,13 +110,15 @@ fn write_body(
     if !input.free || jointed || input.locked {
         let still = |flow: &SeenFlow| flow.change == Row::default();
         let disturbance = batch.disturbances.get(input.disturbance as usize);
+        let own = state.equipment.as_deref();
+        let own = own.map_or_else(Default::default, Equipment::action);
         let held = Held {
             shared,
             input,
             output,
             expected: disturbance.map_or(JointAction::default(), |d| d.expected),
-            user_force: saved.force,
-            user_torque: saved.torque,
+            user_force: saved.force + own.force,
+            user_torque: saved.torque + own.torque,
             steady: batch.flows.get(index).is_none_or(still),
             context: to.context,
         };
@@ -276,7 +286,7 @@ impl Held<'_> {
         }
         if input.in_contact && input.system == NONE {
             // What the fluid does, as far as the mass of its own tells.
-            let own = body.user_force() + gravity * shared.constants.dry.mass as f32;
+            let own = self.user_force + gravity * shared.constants.dry.mass as f32;
             let masses = &shared.principal_mass;
             let change = masses.scale(attitude, start.expected_change, |mass| mass);
             flight.fluid_force = (change - self.expected.impulse) / dt - own;
