@@ -89,7 +89,7 @@ pub mod reduced;
 pub mod training;
 pub mod turbulence;
 
-pub use body::{DryMass, Hinge, ImmersedBody, Part, Propeller, Thruster};
+pub use body::{Division, DryMass, Hinge, ImmersedBody, Part, Propeller, Thruster};
 pub use coupling::{BodyChanges, Immersion, OnContact, RapierSets, Warning};
 pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Integrator};
 pub use error::Error;

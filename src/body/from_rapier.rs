@@ -1,6 +1,7 @@
 //! What rapier's bodies are made of, read in f64, and mass properties that rapier gets right.
 
 use super::DryMass;
+use super::division::{Division, added_mass_of, parts_of};
 use crate::error::Error;
 use crate::geometry::{Surface, rounded_volume};
 use crate::hydro::{Accuracy, HydroProperties};
@@ -15,7 +16,8 @@ use rapier3d::parry::shape::{Shape, TypedShape};
 
 impl HydroProperties {
     /// Properties of all of a body's enabled, solid (not sensor) colliders together, in the body's
-    /// local frame, referred to its center of mass.
+    /// local frame, referred to its center of mass, with the [parts](HydroProperties::parts) that they are to the
+    /// fluid ([`Division::Automatic`]).
     ///
     /// # Errors
     /// [`Error::NoBody`] if the handle is stale, [`Error::NoCollider`] if there is nothing to
@@ -26,6 +28,41 @@ impl HydroProperties {
         handle: RigidBodyHandle,
     ) -> Result<Self, Error> {
         Self::from_body_with(bodies, colliders, handle, Accuracy::Proxy)
+    }
+
+    /// [`HydroProperties::from_body`] with its colliders divided into parts as told.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Division, HydroProperties};
+    ///
+    /// // Two crossed fins: two surfaces.
+    /// let mut world = PhysicsWorld::new();
+    /// let (dart, _) = world.insert(
+    ///     RigidBodyBuilder::dynamic(),
+    ///     ColliderBuilder::cuboid(0.1, 0.03, 0.001).density(100.0),
+    /// );
+    /// let fin = ColliderBuilder::cuboid(0.1, 0.001, 0.03).density(100.0).build();
+    /// world.colliders.insert_with_parent(fin, dart, &mut world.bodies);
+    /// let divided = |division| {
+    ///     let (bodies, colliders) = (&world.bodies, &world.colliders);
+    ///     HydroProperties::from_body_divided(bodies, colliders, dart, division)
+    /// };
+    /// assert_eq!(divided(Division::Automatic)?.parts.len(), 2);
+    /// assert!(divided(Division::Whole)?.parts.is_empty());
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`HydroProperties::from_body`].
+    pub fn from_body_divided(
+        bodies: &RigidBodySet,
+        colliders: &ColliderSet,
+        handle: RigidBodyHandle,
+        division: Division,
+    ) -> Result<Self, Error> {
+        let (parts, center) = solid_parts(bodies, colliders, handle)?;
+        Self::of_parts(&parts, center, division)
     }
 
     /// [`HydroProperties::from_body`] with the added mass as accurate as asked for.
@@ -41,29 +78,26 @@ impl HydroProperties {
         handle: RigidBodyHandle,
         accuracy: Accuracy,
     ) -> Result<Self, Error> {
-        let body = bodies.get(handle).ok_or(Error::NoBody)?;
-        let parts: Vec<_> = attached(body, colliders)
-            .filter(|(collider, _)| !collider.is_sensor())
-            .map(|(collider, pose)| (pose, collider.shape()))
-            .collect();
-        if parts.is_empty() {
-            return Err(Error::NoCollider);
-        }
-        let surface = Surface::of_parts(&parts, Surface::from_shape)?;
-        let center = DryMass::of_body(bodies, colliders, handle)?.center;
-        Self::from_surface(&surface, center).with_accuracy(&parts, accuracy)
+        let (parts, center) = solid_parts(bodies, colliders, handle)?;
+        Self::of_parts(&parts, center, Division::Automatic)?.with_accuracy(&parts, accuracy)
     }
 
     /// Properties of shapes at their poses in a body's frame, referred to `center`.
     pub(crate) fn of_parts(
         parts: &[(Pose, &dyn Shape)],
         center: Vector3<f64>,
+        division: Division,
     ) -> Result<Self, Error> {
         if parts.is_empty() {
             return Err(Error::NoCollider);
         }
         let surface = Surface::of_parts(parts, Surface::from_shape)?;
-        Ok(Self::from_surface(&surface, center))
+        let mut whole = Self::from_surface(&surface, center);
+        whole.parts = parts_of(parts, center, division)?;
+        if !whole.parts.is_empty() {
+            whole.added_mass = added_mass_of(&whole.parts);
+        }
+        Ok(whole)
     }
 }
 
@@ -168,6 +202,30 @@ fn scaled(mass: &DryMass, to: f64) -> DryMass {
         center: mass.center,
         inertia: mass.inertia * (to / mass.mass),
     }
+}
+
+/// Shapes of the solid colliders of a body with their poses, and its center of mass, in its frame.
+fn solid_parts<'a>(
+    bodies: &RigidBodySet,
+    colliders: &'a ColliderSet,
+    handle: RigidBodyHandle,
+) -> Result<(Vec<(Pose, &'a dyn Shape)>, Vector3<f64>), Error> {
+    let body = bodies.get(handle).ok_or(Error::NoBody)?;
+    let mut parts = Vec::new();
+    for collider in body
+        .colliders()
+        .iter()
+        .filter_map(|handle| colliders.get(*handle))
+    {
+        if collider.is_enabled() && !collider.is_sensor() {
+            let pose = collider.position_wrt_parent().copied();
+            parts.push((pose.unwrap_or(Pose::IDENTITY), collider.shape()));
+        }
+    }
+    if parts.is_empty() {
+        return Err(Error::NoCollider);
+    }
+    Ok((parts, DryMass::of_body(bodies, colliders, handle)?.center))
 }
 
 /// Enabled colliders of a body with their poses in its frame.

@@ -1,9 +1,11 @@
 //! The description of an immersed body: its shape as the fluid feels it, its law, and its own mass.
 
+mod division;
 pub(crate) mod from_rapier;
 mod part;
 mod thruster;
 
+pub use division::Division;
 pub use part::{Hinge, Part};
 pub use thruster::{Propeller, Thruster};
 

@@ -11,7 +11,7 @@ use super::body_state::NONE;
 use super::rapier_sets::RapierSets;
 use super::saved_properties::{Difference, SavedProperties};
 use super::warning::Warning;
-use crate::body::ImmersedBody;
+use crate::body::{Division, ImmersedBody};
 use crate::error::Error;
 use crate::hydro::HydroProperties;
 use rapier3d::na::Vector3;
@@ -136,5 +136,5 @@ fn described(colliders: &[KeptCollider], point: Vector3<f64>) -> Result<HydroPro
     // A shape that is not known any more describes nothing.
     let parts = solid.map(|kept| Some((kept.pose, kept.shape.as_deref()?)));
     let parts: Vec<_> = parts.collect::<Option<_>>().ok_or(Error::NoCollider)?;
-    HydroProperties::of_parts(&parts, point)
+    HydroProperties::of_parts(&parts, point, Division::Automatic)
 }

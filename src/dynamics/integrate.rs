@@ -420,7 +420,16 @@ mod tests {
         };
         let load = unloaded();
         let before = motion.velocity;
-        advance::<false, _, _>(inertia, &Whole(&NotANumber), &load, &mut motion, 0.01, 1.0, 1, 1);
+        advance::<false, _, _>(
+            inertia,
+            &Whole(&NotANumber),
+            &load,
+            &mut motion,
+            0.01,
+            1.0,
+            1,
+            1,
+        );
         assert_eq!(motion.velocity, before);
         assert_eq!(
             (motion.rate, motion.trend),

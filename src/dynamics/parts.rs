@@ -22,7 +22,7 @@ use crate::hydro::part_law::{PreparedPart, Raise};
 use crate::hydro::viscous::ForceFactors;
 use crate::hydro::{AddedMass, HydroProperties, PartLaw};
 use crate::math::Scalar;
-use crate::math::spatial::{Blocks, Twist, Wrench, cross, rotate_back, skew, transform};
+use crate::math::spatial::{Blocks, Twist, Wrench, cross, product, rotate_back, skew, transform};
 use rapier3d::na::{Matrix3, Rotation3, Vector3};
 
 /// What a step needs of one part, `f64` or `f32`.
@@ -88,24 +88,33 @@ pub(super) fn coupled_mass(
     density: f64,
     frame: &BodyFrame,
 ) -> CoupledMass<f64> {
-    let mut sum = AddedMass::zero();
+    let to_plate = frame.axes.inverse();
+    let mut coupled = AddedMass::zero();
+    let (mut isotropic, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
     for part in &body.parts {
         let of_body = PartLaw::Viscous(body.law);
         let law = part.law.as_ref().unwrap_or(&of_body);
-        let share = law.munk_factor(&part.hydro);
         let hydro = &part.hydro;
-        let own = added_mass_in_body(hydro, part, &frame.center).to_matrix6();
-        // What is the same in all directions makes no moment by itself, and is felt whole by bluff parts.
-        let all = hydro.isotropic_added_mass() * hydro.thickness() * (1.0 - share);
-        let at = part.pose.transform_point(&hydro.centroid.into()).coords;
-        let same =
-            AddedMass::diagonal(Vector3::repeat(all), Vector3::zeros()).about(frame.center - at);
-        sum = sum + AddedMass::from_matrix6(&(own * share)) + same;
+        // What is the same in all directions is felt whole, at the part's center of volume.
+        let same = hydro.isotropic_added_mass() * hydro.thickness();
+        let at = part.pose.transform_point(&hydro.centroid.into()).coords - frame.center;
+        let of_same = AddedMass::diagonal(Vector3::repeat(same), Vector3::zeros()).about(-at);
+        let own = added_mass_in_body(hydro, part, &frame.center);
+        let rest = own.to_matrix6() - of_same.to_matrix6();
+        coupled = coupled + AddedMass::from_matrix6(&(rest * law.munk_factor(hydro)));
+        let at = to_plate * at / frame.length;
+        isotropic += same;
+        first += at * same;
+        second += at * at.transpose() * same;
     }
-    let plate = sum.rotated(&frame.axes.inverse());
+    let plate = coupled.rotated(&to_plate);
+    let scale = density / frame.mass;
     CoupledMass {
-        m11: plate.linear * (density / frame.mass),
-        m12: plate.coupling * (density / (frame.mass * frame.length)),
+        m11: plate.linear * scale,
+        m12: plate.coupling * (scale / frame.length),
+        isotropic: isotropic * scale,
+        first: first * scale,
+        second: second * scale,
     }
 }
 
@@ -241,7 +250,8 @@ impl<T: Scalar, R: Raise<T>, N: Fn(usize) -> PartNow<T>> Reaction<T> for Parts<'
     }
 }
 
-/// Adds the inertial coupling: see [`InertiaConstants::coupling_matrix`].
+/// Adds the inertial coupling: see [`InertiaConstants::coupling_matrix`], of which this is the sum over parts: `[r]× [ω]× [r]×` is
+/// `−(r·ω) [r]×`.
 #[inline(always)]
 fn couple<T: Scalar>(
     coupled: &CoupledMass<T>,
@@ -249,11 +259,18 @@ fn couple<T: Scalar>(
     v: &Twist<T>,
     n: &mut Blocks<T>,
 ) {
-    let p = transform(&coupled.m11, &v.linear) + transform(&coupled.m12, &v.angular);
-    let h = transform(&inertia.m22, &v.angular) + transform(&coupled.m12.transpose(), &v.linear);
-    let p = skew(&(p * inertia.per_length));
-    n.m11 -= skew(&(v.angular * (inertia.dry_mass * inertia.per_length)));
-    n.m12 += p;
-    n.m21 += p;
-    n.m22 += skew(&(h * inertia.per_length));
+    let (u, w) = (&v.linear, &v.angular);
+    let per_length = inertia.per_length;
+    let turned = transform(&coupled.second, w);
+    let trace = coupled.second.m11 + coupled.second.m22 + coupled.second.m33;
+    let p = transform(&coupled.m11, u) + transform(&coupled.m12, w);
+    let h =
+        transform(&inertia.m22, w) + turned - w * trace + transform(&coupled.m12.transpose(), u);
+    let p = skew(&(p * per_length));
+    let own = skew(&(w * ((inertia.dry_mass + coupled.isotropic) * per_length)));
+    let own12 = product(&skew(&(w * per_length)), &skew(&coupled.first));
+    n.m11 -= own;
+    n.m12 += p + own12;
+    n.m21 += p - own12.transpose();
+    n.m22 += skew(&((h - turned) * per_length));
 }

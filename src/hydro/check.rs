@@ -46,6 +46,13 @@ impl HydroProperties {
         for moment in plate.second_moment.iter().chain(&plate.third_moment) {
             Error::check_not_negative("planform moment", *moment)?;
         }
+        let whole = plate.fraction > 0.0 && plate.fraction <= 1.0 + 1e-9;
+        Error::check(
+            "fraction of a planform",
+            plate.fraction,
+            whole,
+            "positive and at most 1",
+        )?;
         let semi_axes = &self.proxy.semi_axes;
         for semi_axis in semi_axes.iter() {
             Error::check_not_negative("proxy semi-axis", *semi_axis)?;
@@ -62,6 +69,11 @@ impl HydroProperties {
         )?;
         if let Some(bluff) = &self.bluff {
             bluff.check()?;
+        }
+        for part in &self.parts {
+            let nested = part.parts.len() as f64;
+            Error::check("parts of a part", nested, nested == 0.0, "none")?;
+            part.check()?;
         }
         Ok(())
     }
@@ -80,7 +92,8 @@ mod tests {
         let half = rapier3d::math::Vector::new(0.04, 0.001, 0.02);
         let good = HydroProperties::from_shape(&Cuboid::new(half)).unwrap();
         good.check().unwrap();
-        let fields: [(&str, Field, &[f64]); 13] = [
+        let fields: [(&str, Field, &[f64]); 14] = [
+            ("fraction", |h| &mut h.planform.fraction, &[0.0, -1.0, 1.1]),
             ("volume", |h| &mut h.volume, &[0.0, -1.0]),
             ("centroid", |h| &mut h.centroid.x, &[]),
             ("reference", |h| &mut h.reference.y, &[]),

@@ -14,6 +14,7 @@ pub(crate) mod part_law;
 mod planform;
 mod properties;
 mod silhouette;
+mod strips;
 pub(crate) mod viscous;
 
 pub use accuracy::Accuracy;

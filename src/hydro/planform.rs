@@ -25,6 +25,9 @@ pub struct Planform {
     pub second_moment: Vector2<f64>,
     /// `∫|y|³ dA` (about x) and `∫|x|³ dA` (about y) from the center, m⁵.
     pub third_moment: Vector2<f64>,
+    /// Share of the area of the planform that it is cut out of, 1 if it is whole: the half extents are those of the
+    /// whole, whose aspect ratio it has.
+    pub fraction: f64,
 }
 
 impl Planform {
@@ -74,6 +77,7 @@ impl Planform {
             thickness: integrals.volume / area,
             second_moment: second,
             third_moment: third,
+            fraction: 1.0,
         }
     }
 }
@@ -92,7 +96,9 @@ impl Planform {
 
 /// Points and weights on a triangle, split in 16 with the three-point rule on each part: exact for
 /// quadratics, and good to 10⁻³ for |x|³ on a triangle that crosses the axis.
-fn quadrature(corners: &[Vector3<f64>; 3]) -> impl Iterator<Item = (Vector3<f64>, f64)> + use<> {
+pub(super) fn quadrature(
+    corners: &[Vector3<f64>; 3],
+) -> impl Iterator<Item = (Vector3<f64>, f64)> + use<> {
     const SPLIT: usize = 4;
     let [a, b, c] = *corners;
     let step = 1.0 / SPLIT as f64;

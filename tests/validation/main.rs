@@ -18,6 +18,7 @@ mod kirchhoff;
 mod lifecycle;
 mod misuse;
 mod moving_fluid;
+mod parts;
 mod passive;
 mod plain;
 mod published;

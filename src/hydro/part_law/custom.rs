@@ -3,7 +3,7 @@
 use super::place::{PartPlace, moved, velocity_at};
 use crate::error::Error;
 use crate::math::Scalar;
-use crate::math::spatial::{Blocks, Twist, Wrench};
+use crate::math::spatial::{Blocks, Twist, Wrench, dot};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 use rapier3d::na::{Matrix3, Vector3};
@@ -130,6 +130,9 @@ pub(crate) struct PreparedCustom {
 
 /// Square of the speed, m²/s², below which a custom law's force fades.
 const LEAST_SPEED2: f64 = 1e-12;
+/// Rate, 1/s, at which what is across a motion turns it at most: a force on a body at rest (a cambered wing's, say) fades
+/// below a speed of force over mass over this. Faster turning would be lost in rounding.
+const FASTEST: f64 = 1e4;
 
 impl PreparedCustom {
     pub fn new(
@@ -176,25 +179,37 @@ impl PreparedCustom {
             force: place.out(&Vector3::new(fx, fy, fz)) * factor,
             torque: place.out(&Vector3::new(tx, ty, tz)) * factor,
         };
-        let least = factor.constant(LEAST_SPEED2);
-        moved(&of_force(&force, &own, least), &place.position)
+        moved(&of_force(&force, &own), &place.position)
     }
 }
 
-/// A force and torque on a part at a velocity, as a matrix that gives them at that velocity and takes no more
-/// energy than they do: `(F νᵀ − ν Fᵀ)/|ν|² + (F·ν) ν νᵀ/|ν|⁴`, the first of which is skew. Where F·ν > 0 the force
-/// would give energy; that part of it is left out.
+/// A force and torque on a part at a velocity ν, as a matrix that gives them at that velocity and takes no more
+/// energy than they do: what is along u or w and against it is a resistance there; what is across is the skew
+/// `(F νᵀ − ν Fᵀ)/|ν|²`. Where only force and torque together take energy, `(F·ν) ν νᵀ/|ν|⁴` is their resistance, and what gives
+/// energy (F·ν > 0) is left out.
 #[inline(always)]
-fn of_force<T: Scalar>(force: &Wrench<T>, v: &Twist<T>, least_speed2: T) -> Blocks<T> {
-    let zero = least_speed2.constant(0.0);
-    let dot = |a: &Vector3<T>, b: &Vector3<T>| a.x * b.x + a.y * b.y + a.z * b.z;
-    let size2 = dot(&v.linear, &v.linear) + dot(&v.angular, &v.angular);
-    let per = least_speed2.constant(1.0) / size2.max(least_speed2);
-    let power = dot(&force.force, &v.linear) + dot(&force.torque, &v.angular);
-    // Of (F νᵀ − ν Fᵀ) ν/|ν|² the part along ν is F·ν less than F's: it is given by the symmetric part, if it takes.
-    let symmetric = power.min(zero) * per * per;
-    let block = |f: &Vector3<T>, a: &Vector3<T>, g: &Vector3<T>, b: &Vector3<T>| {
-        let e = |i: usize, j: usize| (f[i] * b[j] - a[i] * g[j]) * per + a[i] * b[j] * symmetric;
+fn of_force<T: Scalar>(force: &Wrench<T>, v: &Twist<T>) -> Blocks<T> {
+    let (u, w) = (&v.linear, &v.angular);
+    let (zero, one) = (u.x.constant(0.0), u.x.constant(1.0));
+    let least = zero.constant(LEAST_SPEED2);
+    let (u2, w2) = (dot(u, u), dot(w, w));
+    let (by_u, by_w) = (dot(&force.force, u), dot(&force.torque, w));
+    // Both take energy by themselves, or nothing is along either.
+    let both = by_u.max(by_w);
+    let apart = |power: T| zero.select_lt(zero, both, power);
+    let resist = |power: T, size2: T| apart(power) / (size2.max(least) * size2.max(least));
+    let (along_u, along_w) = (resist(by_u, u2), resist(by_w, w2));
+    let across = Wrench {
+        force: force.force - u * (along_u * u2),
+        torque: force.torque - w * (along_w * w2),
+    };
+    let size2 = u2 + w2;
+    let strength = (dot(&across.force, &across.force) + dot(&across.torque, &across.torque)).sqrt();
+    let slow = strength * size2.sqrt() * zero.constant(1.0 / FASTEST);
+    let per = one / size2.max(slow).max(least);
+    let together = (by_u + by_w).min(zero).select_lt(zero, both, zero) * per * per;
+    let block = |f: &Vector3<T>, a: &Vector3<T>, g: &Vector3<T>, b: &Vector3<T>, along: T| {
+        let e = |i: usize, j: usize| (f[i] * b[j] - a[i] * g[j]) * per + a[i] * b[j] * along;
         Matrix3::new(
             e(0, 0),
             e(0, 1),
@@ -207,11 +222,11 @@ fn of_force<T: Scalar>(force: &Wrench<T>, v: &Twist<T>, least_speed2: T) -> Bloc
             e(2, 2),
         )
     };
-    let (f, t, u, w) = (&force.force, &force.torque, &v.linear, &v.angular);
+    let (f, t) = (&across.force, &across.torque);
     Blocks {
-        m11: block(f, u, f, u),
-        m12: block(f, u, t, w),
-        m21: block(t, w, f, u),
-        m22: block(t, w, t, w),
+        m11: block(f, u, f, u, along_u + together),
+        m12: block(f, u, t, w, together),
+        m21: block(t, w, f, u, together),
+        m22: block(t, w, t, w, along_w + together),
     }
 }

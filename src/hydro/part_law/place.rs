@@ -30,6 +30,11 @@ scalar_struct! {
     pub(crate) struct CoupledMass<T> {
         m11: Matrix3<T>,
         m12: Matrix3<T>,
+        /// What of the added mass is the same in all directions, and its first and second moment about the center of
+        /// mass.
+        isotropic: T,
+        first: Vector3<T>,
+        second: Matrix3<T>,
     }
 }
 

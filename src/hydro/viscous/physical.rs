@@ -233,13 +233,21 @@ impl PhysicalLaw {
         let plate = &hydro.planform;
         let proxy = &hydro.proxy;
         let [a, b, c]: [f64; 3] = proxy.semi_axes.into();
-        let creeping = creeping_resistance(hydro, Self::plate_share(hydro));
+        // A strip has its share of the whole's resistance; what turning it across the span takes comes from where it is.
+        let mut creeping = creeping_resistance(hydro, Self::plate_share(hydro));
+        if plate.fraction != 1.0 {
+            creeping.linear *= plate.fraction;
+            creeping
+                .angular
+                .component_mul_assign(&Vector3::new(plate.fraction, 0.0, 0.0));
+        }
+        let whole_area = plate.area / plate.fraction;
         let drag = creeping.linear * (rho * nu / mass);
         let spin_drag = creeping.angular * (rho * nu / (mass * length * length));
         let share = Self::plate_share(hydro);
 
         let slenderness = plate.half_extents.x / plate.half_extents.y;
-        let fill = plate.area / (4.0 * plate.half_extents.x * plate.half_extents.y);
+        let fill = whole_area / (4.0 * plate.half_extents.x * plate.half_extents.y);
         let plateau = broadside_drag(slenderness, fill);
         // Pressure on the two halves of a plate that rotates: ½ρC (I₂ k₁|u| + I₃ k₂|ω|), per axis
         // by how flat the body is seen along it. Spinning about z, a flat plate shows only its
@@ -261,7 +269,7 @@ impl PhysicalLaw {
             extent_x2: (plate.half_extents.x / length).powi(2),
             extent_y2: (plate.half_extents.y / length).powi(2),
             extent_product: plate.half_extents.x * plate.half_extents.y / (length * length),
-            area: plate.area / (length * length),
+            area: whole_area / (length * length),
             reynolds_scale: length / nu,
             broadside_plateau: plateau,
             broadside_mid: DISC_MID.0 * plateau / DISC_PLATEAU,

@@ -1,0 +1,205 @@
+//! Which colliders of a body are one surface to the fluid, and which are parts of their own.
+
+use crate::error::Error;
+use crate::geometry::Surface;
+use crate::hydro::{AddedMass, HydroProperties};
+use crate::math::to_real;
+use rapier3d::math::Pose;
+use rapier3d::na::Vector3;
+use rapier3d::parry::query::distance;
+use rapier3d::parry::shape::Shape;
+use rapier3d::parry::transformation::try_convex_hull;
+
+/// How the colliders of a body, and the shapes of its compound colliders, are divided into [`Part`](crate::Part)s.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub enum Division {
+    /// Colliders that touch are one part if they are plates in one plane, if they fill their common hull, or if none of them is a
+    /// plate (as the pieces of a convex decomposition); every other is a part by itself.
+    #[default]
+    Automatic,
+    /// All are one.
+    Whole,
+    /// Each collider is a part, and of compound ones each of their shapes.
+    EachCollider,
+}
+
+/// Gap, over the size of the smaller of two colliders, up to which they touch.
+const GAP: f64 = 0.02;
+/// Cosine of the angle up to which plates are parallel: 5°.
+const PARALLEL: f64 = 0.996;
+/// Share of their common hull that colliders fill which make one solid together.
+const FILLED: f64 = 0.9;
+
+/// A piece of a body, or several that have become one.
+struct Piece<'a> {
+    shapes: Vec<(Pose, &'a dyn Shape)>,
+    surface: Surface,
+    hydro: HydroProperties,
+    volume: f64,
+}
+
+impl<'a> Piece<'a> {
+    fn new(shapes: Vec<(Pose, &'a dyn Shape)>, center: Vector3<f64>) -> Result<Self, Error> {
+        let surface = Surface::of_parts(&shapes, Surface::from_shape)?;
+        let hydro = HydroProperties::from_surface(&surface, center);
+        Ok(Self {
+            volume: hydro.volume,
+            shapes,
+            surface,
+            hydro,
+        })
+    }
+
+    fn is_plate(&self) -> bool {
+        self.hydro.bluff.is_none()
+    }
+
+    fn size(&self) -> f64 {
+        self.hydro.planform.half_extents.x
+    }
+
+    fn touches(&self, other: &Self) -> bool {
+        let gap = GAP * self.size().min(other.size());
+        self.shapes.iter().any(|(pose, shape)| {
+            let others = other.shapes.iter();
+            // Shapes of which parry knows no distance may touch.
+            let near = |(other_pose, other): &(Pose, &dyn Shape)| {
+                distance(pose, *shape, other_pose, *other)
+                    .is_ok_and(|d| f64::from(d.distance) <= gap)
+            };
+            others.into_iter().any(near)
+        })
+    }
+
+    /// Whether both are plates in one plane.
+    fn is_in_plane_with(&self, other: &Self) -> bool {
+        if !(self.is_plate() && other.is_plate()) {
+            return false;
+        }
+        let (a, b) = (&self.hydro.planform, &other.hydro.planform);
+        let (n, m) = (a.axes * Vector3::z(), b.axes * Vector3::z());
+        let apart = (b.center - a.center).dot(&n).abs();
+        let thick = a.half_extents.z + b.half_extents.z;
+        n.dot(&m).abs() > PARALLEL && apart <= thick
+    }
+}
+
+/// Whether pieces fill their common convex hull.
+fn are_convex<'a>(pieces: impl Iterator<Item = &'a Piece<'a>>) -> bool {
+    let (mut points, mut volume) = (Vec::new(), 0.0);
+    for piece in pieces {
+        points.extend(piece.surface.vertices().iter().map(|v| to_real(*v)));
+        volume += piece.volume;
+    }
+    let Ok((points, triangles)) = try_convex_hull(&points) else {
+        return false;
+    };
+    let point = |i: u32| crate::math::to_f64(points[i as usize]);
+    let from = point(0);
+    let sixth = |[a, b, c]: &[u32; 3]| {
+        let [a, b, c] = [*a, *b, *c].map(|i| point(i) - from);
+        a.dot(&b.cross(&c)) / 6.0
+    };
+    let hull: f64 = triangles.iter().map(sixth).sum();
+    volume >= FILLED * hull
+}
+
+/// The parts of shapes at their poses in a body's frame, referred to `center`: none if all are one.
+pub(super) fn parts_of(
+    shapes: &[(Pose, &dyn Shape)],
+    center: Vector3<f64>,
+    division: Division,
+) -> Result<Vec<HydroProperties>, Error> {
+    if division == Division::Whole {
+        return Ok(Vec::new());
+    }
+    let mut pieces = Vec::new();
+    for (pose, shape) in shapes {
+        match shape.as_compound() {
+            Some(compound) => {
+                for (inner, shape) in compound.shapes() {
+                    pieces.push((*pose * *inner, shape.as_ref()));
+                }
+            }
+            None => pieces.push((*pose, *shape)),
+        }
+    }
+    if pieces.len() < 2 {
+        return Ok(Vec::new());
+    }
+    let pieces: Result<Vec<_>, Error> = pieces
+        .into_iter()
+        .map(|shape| Piece::new(vec![shape], center))
+        .collect();
+    let mut pieces = pieces?;
+    if division == Division::Automatic {
+        if are_convex(pieces.iter()) {
+            return Ok(Vec::new());
+        }
+        pieces = joined(pieces, center)?;
+    }
+    if pieces.len() < 2 {
+        return Ok(Vec::new());
+    }
+    Ok(pieces.into_iter().map(|piece| piece.hydro).collect())
+}
+
+/// Pieces of which those that are one have become one.
+fn joined(pieces: Vec<Piece>, center: Vector3<f64>) -> Result<Vec<Piece>, Error> {
+    // Who touches whom, and which of them are one; the first of a group stands for it.
+    let count = pieces.len();
+    let mut group: Vec<usize> = (0..count).collect();
+    let touching = |i: usize, j: usize| pieces[i].touches(&pieces[j]);
+    let pairs: Vec<(usize, usize)> = (0..count)
+        .flat_map(|i| (i + 1..count).map(move |j| (i, j)))
+        .filter(|(i, j)| touching(*i, *j))
+        .collect();
+    let join = |group: &mut Vec<usize>, i: usize, j: usize| {
+        let (low, high) = (group[i].min(group[j]), group[i].max(group[j]));
+        for of in group.iter_mut().filter(|of| **of == high) {
+            *of = low;
+        }
+    };
+    for (i, j) in &pairs {
+        let (a, b) = (&pieces[*i], &pieces[*j]);
+        if a.is_in_plane_with(b) || !(a.is_plate() || b.is_plate()) {
+            join(&mut group, *i, *j);
+        }
+    }
+    // Plates on top of each other, and whatever else fills its hull, become one step by step.
+    loop {
+        let fill = |(i, j): &&(usize, usize)| {
+            let (a, b) = (group[*i], group[*j]);
+            a != b
+                && are_convex(
+                    (0..count)
+                        .filter(|k| [a, b].contains(&group[*k]))
+                        .map(|k| &pieces[k]),
+                )
+        };
+        let Some((i, j)) = pairs.iter().find(fill).copied() else {
+            break;
+        };
+        join(&mut group, i, j);
+    }
+    let mut ones: Vec<usize> = group.clone();
+    ones.sort_unstable();
+    ones.dedup();
+    ones.into_iter()
+        .map(|one| {
+            let members = (0..count).filter(|k| group[*k] == one);
+            let shapes = members.flat_map(|k| pieces[k].shapes.iter().copied());
+            Piece::new(shapes.collect(), center)
+        })
+        .collect()
+}
+
+/// The added mass of parts together, which do not feel each other, about the point that all refer to.
+pub(super) fn added_mass_of(parts: &[HydroProperties]) -> AddedMass {
+    let sum = |sum: AddedMass, part: &HydroProperties| sum + part.added_mass;
+    parts.iter().fold(AddedMass::zero(), sum)
+}

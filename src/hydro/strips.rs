@@ -1,0 +1,202 @@
+//! Strips of a plate across its longest axis, for wings and blades whose sections meet different flows.
+
+use super::{AddedMass, HydroProperties, Planform};
+use crate::error::Error;
+use crate::geometry::Surface;
+use rapier3d::na::{Vector2, Vector3};
+use rapier3d::parry::shape::Shape;
+
+impl HydroProperties {
+    /// Strips of a thin shape, side by side along its longest axis (the span), from its lower to its upper end.
+    ///
+    /// Each is a [`Part`](crate::Part) that sees the velocity of its own middle, so that what a rotation does to the
+    /// flow along the span comes by itself: the speed of a blade's tip, the roll damping of a wing. Each has the
+    /// aspect ratio of the whole ([`Planform::fraction`]), so that together they lift and drag like it.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{HydroProperties, ImmersedBody};
+    ///
+    /// let blade = Cuboid::new(Vector::new(0.3, 0.001, 0.03));
+    /// let strips = HydroProperties::strips_of_shape(&blade, 6)?;
+    /// assert_eq!(strips.len(), 6);
+    /// assert!((strips[0].planform.center.x + 0.25).abs() < 1e-6);
+    /// let blade = ImmersedBody::new(HydroProperties::from_shape(&blade)?);
+    /// let blade = blade.with_parts(strips.into_iter().map(rapier3d_immersed::Part::new));
+    /// assert_eq!(blade.parts.len(), 6);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Surface::from_shape`] and [`HydroProperties::strips_of_surface`].
+    pub fn strips_of_shape(shape: &dyn Shape, count: usize) -> Result<Vec<Self>, Error> {
+        Self::strips_of_surface(&Surface::from_shape(shape)?, count)
+    }
+
+    /// Strips of the solid that a thin closed surface bounds.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if there shall be none or more than a thousand; [`Error::InvalidParameter`] if the body is
+    /// thicker than a quarter of its width: only plates are divided.
+    pub fn strips_of_surface(surface: &Surface, count: usize) -> Result<Vec<Self>, Error> {
+        Error::check_range("number of strips", count as f64, 1.0, 1000.0)?;
+        let whole = Self::from_surface(surface, Vector3::zeros());
+        let semi_axes = &whole.proxy.semi_axes;
+        let ratio = semi_axes.z / semi_axes.y;
+        let plate = whole.bluff.is_none();
+        Error::check(
+            "thickness over width of a body that is divided into strips",
+            ratio,
+            plate,
+            "at most 0.25",
+        )?;
+        let axes = whole.planform.axes;
+        let to_plate = axes.inverse();
+        let flat: Vec<[Vector3<f64>; 3]> = surface
+            .corners()
+            .map(|corners| corners.map(|corner| to_plate * corner))
+            .collect();
+        let along = || flat.iter().flatten().map(|corner| corner.x);
+        let low = along().fold(f64::INFINITY, f64::min);
+        let high = along().fold(f64::NEG_INFINITY, f64::max);
+        let width = (high - low) / count as f64;
+        let height = (to_plate * whole.centroid).z;
+        let strips = (0..count).map(|i| {
+            let from = low + width * i as f64;
+            let mut pieces = Vec::new();
+            for triangle in &flat {
+                let inside = cut(cut(triangle.to_vec(), from, 1.0), from + width, -1.0);
+                for i in 2..inside.len() {
+                    pieces.push([inside[0], inside[i - 1], inside[i]]);
+                }
+            }
+            strip(&whole, &pieces, height)
+        });
+        Ok(strips.flatten().collect())
+    }
+}
+
+/// The part of a polygon where `sign·(x − at) ≥ 0`.
+fn cut(polygon: Vec<Vector3<f64>>, at: f64, sign: f64) -> Vec<Vector3<f64>> {
+    let side = |p: &Vector3<f64>| sign * (p.x - at);
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (i, p) in polygon.iter().enumerate() {
+        let q = &polygon[(i + 1) % polygon.len()];
+        let (p_side, q_side) = (side(p), side(q));
+        if p_side >= 0.0 {
+            kept.push(*p);
+        }
+        if (p_side < 0.0) != (q_side < 0.0) {
+            kept.push(p + (q - p) * (p_side / (p_side - q_side)));
+        }
+    }
+    kept
+}
+
+/// The strip whose surface, in plate axes, consists of these triangles; `None` if it shows nothing.
+fn strip(
+    whole: &HydroProperties,
+    pieces: &[[Vector3<f64>; 3]],
+    height: f64,
+) -> Option<HydroProperties> {
+    let plate = &whole.planform;
+    // Every line along the normal crosses the surface twice, hence the half.
+    let area_of = |[a, b, c]: &[Vector3<f64>; 3]| (b - a).cross(&(c - a)).z.abs() / 4.0;
+    let area: f64 = pieces.iter().map(area_of).sum();
+    if area < 1e-9 * plate.area {
+        return None;
+    }
+    let mut center = Vector3::zeros();
+    for piece in pieces {
+        center += piece.iter().sum::<Vector3<f64>>() * (area_of(piece) / (3.0 * area));
+    }
+    center.z = height;
+    let (mut second, mut third) = (Vector2::zeros(), Vector2::zeros());
+    for piece in pieces {
+        for (point, share) in super::planform::quadrature(piece) {
+            let distance = Vector2::new(point.y - center.y, point.x - center.x).abs();
+            let square = distance.component_mul(&distance);
+            second += square * (area_of(piece) * share);
+            third += square.component_mul(&distance) * (area_of(piece) * share);
+        }
+    }
+    let center = plate.axes * center;
+    let fraction = (area / plate.area).min(1.0);
+    let about_middle = whole.added_mass_about(plate.center);
+    // The rest of the rotational inertia comes from where the strips are.
+    let span = plate.axes * Vector3::x();
+    let about_span = span.dot(&(about_middle.angular * span)).max(0.0);
+    Some(HydroProperties {
+        volume: whole.volume * fraction,
+        centroid: center,
+        reference: center,
+        added_mass: AddedMass {
+            linear: about_middle.linear * fraction,
+            coupling: AddedMass::zero().coupling,
+            angular: span * span.transpose() * (about_span * fraction),
+        },
+        planform: Planform {
+            center,
+            area,
+            second_moment: second,
+            third_moment: third,
+            fraction: fraction * plate.fraction,
+            ..plate.clone()
+        },
+        proxy: whole.proxy,
+        bluff: None,
+        parts: Vec::new(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rapier3d::math::Vector;
+    use rapier3d::parry::shape::{Ball, Cuboid, Cylinder};
+
+    /// Strips add up to the whole: area, volume, added mass, and moments about its middle by Steiner's theorem.
+    #[test]
+    fn strips_add_up() {
+        let half = Vector::new(0.3, 0.001, 0.05);
+        for shape in [&Cuboid::new(half) as &dyn Shape, &Cylinder::new(0.001, 0.1)] {
+            let whole = HydroProperties::from_shape(shape).unwrap();
+            let strips = HydroProperties::strips_of_shape(shape, 7).unwrap();
+            assert_eq!(strips.len(), 7);
+            let sum = |of: &dyn Fn(&HydroProperties) -> f64| strips.iter().map(of).sum::<f64>();
+            let plate = &whole.planform;
+            let area = sum(&|s| s.planform.area);
+            assert!((area / plate.area - 1.0).abs() < 1e-9, "{area}");
+            assert!((sum(&|s| s.planform.fraction) - 1.0).abs() < 1e-9);
+            assert!((sum(&|s| s.volume) / whole.volume - 1.0).abs() < 1e-9);
+            let steiner = sum(&|s| {
+                let away = plate.axes.inverse() * (s.planform.center - plate.center);
+                s.planform.second_moment.y + s.planform.area * away.x * away.x
+            });
+            // The three-point rule is exact for squares.
+            assert!(
+                (steiner / plate.second_moment.y - 1.0).abs() < 1e-6,
+                "{steiner}"
+            );
+            let along = sum(&|s| s.planform.second_moment.x);
+            assert!(
+                (along / plate.second_moment.x - 1.0).abs() < 1e-6,
+                "{along}"
+            );
+            let pushed = sum(&|s| s.added_mass.linear.trace());
+            assert!((pushed / whole.added_mass.linear.trace() - 1.0).abs() < 1e-9);
+            strips.iter().for_each(|strip| strip.check().unwrap());
+        }
+    }
+
+    /// What is no plate is not divided.
+    #[test]
+    fn only_plates() {
+        let error = HydroProperties::strips_of_shape(&Ball::new(0.1), 4).unwrap_err();
+        assert!(error.to_string().contains("0.25"), "{error}");
+        let plate = Cuboid::new(Vector::new(0.3, 0.001, 0.05));
+        for count in [0, 1001] {
+            assert!(HydroProperties::strips_of_shape(&plate, count).is_err());
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Bodies of several parts.
+
+mod division;
+mod energy;
+mod laws;
+mod sums;
+mod thrust;
