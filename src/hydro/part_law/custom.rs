@@ -128,8 +128,10 @@ pub(crate) struct PreparedCustom {
     length: f64,
 }
 
-/// Square of the speed, m²/s², below which a custom law's force fades.
+/// Square of the speed, m²/s², below which what of a custom law's force is across the motion fades.
 const LEAST_SPEED2: f64 = 1e-12;
+/// The same below which a resistance does; its square is still a number of single precision.
+const TINY: f64 = 1e-18;
 /// Rate, 1/s, at which what is across a motion turns it at most: a force on a body at rest (a cambered wing's, say) fades
 /// below a speed of force over mass over this. Faster turning would be lost in rounding.
 const FASTEST: f64 = 1e4;
@@ -197,7 +199,8 @@ fn of_force<T: Scalar>(force: &Wrench<T>, v: &Twist<T>) -> Blocks<T> {
     // Both take energy by themselves, or nothing is along either.
     let both = by_u.max(by_w);
     let apart = |power: T| zero.select_lt(zero, both, power);
-    let resist = |power: T, size2: T| apart(power) / (size2.max(least) * size2.max(least));
+    let tiny = zero.constant(TINY);
+    let resist = |power: T, size2: T| apart(power) / size2.max(tiny) / size2.max(tiny);
     let (along_u, along_w) = (resist(by_u, u2), resist(by_w, w2));
     let across = Wrench {
         force: force.force - u * (along_u * u2),

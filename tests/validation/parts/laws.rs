@@ -226,6 +226,7 @@ fn closures_are_asked() {
         let exact = weight / (6.0 * PI * 0.9 * radius);
         let found = -free.linear_velocity().y;
         assert!((found / exact - 1.0).abs() < 1e-6, "{dt}: {found} {exact}");
-        assert!(free.angular_velocity().norm() < 1e-6);
+        // Damped at 22/s, to where the force fades.
+        assert!(free.angular_velocity().norm() < 1e-5, "{dt}");
     }
 }
