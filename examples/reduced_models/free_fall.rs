@@ -23,29 +23,38 @@ pub enum Law {
     Default,
 }
 
-/// The default law without the terms of a finite wing, and with less abrupt coefficients: an earlier result
-/// of the same calibration. Under the present ones the plate is chaotic between flutter and tumbling (as
+/// The default law with coefficients that are less abrupt: its stall is wide and does not move. Under the
+/// calibrated ones the plate is chaotic between flutter and tumbling (as
 /// measured), and no surrogate follows it there.
 const SMOOTH: PhysicalLaw = PhysicalLaw {
-    pressure_travel: 0.112,
-    attached_lift: PI,
-    attached_aspect: 1.85,
+    pressure_travel: 0.25,
+    lift_slope: 1.0,
+    vortex_lift: 0.0,
     stalled_lift: 0.65,
-    stalled_aspect: 0.5,
-    stall_sine: 0.74,
-    stall_width: 0.35,
-    rotational_lift: 0.80,
-    rotational_aspect: 1.5,
+    stalled_lift_narrow: 0.65,
+    stall_sine: 0.4,
+    stall_aspect: 0.3,
+    stall_width: 0.6,
+    pitch_stall: 0.0,
+    pitch_stall_narrow: 0.0,
+    stall_delay: 0.0,
+    stalled_travel: 0.1,
+    stalled_travel_narrow: 0.1,
+    travel_onset: 0.0,
     rotational_stall: 0.5,
+    rotational_stall_narrow: 0.5,
     munk: 0.16,
+    attached_damping: 2.0,
     translation_damping: 0.655,
+    translation_damping_narrow: 0.655,
     rotation_damping: 1.35,
+    rotation_damping_narrow: 1.35,
     friction: 5.4,
     edge_drag: 0.15,
-    suction_loss: 0.0,
-    induced_drag: 0.0,
     lift_onset: 95.0,
     damping_onset: 25.0,
+    suction_loss: 1.0,
+    induced_drag: 0.0,
     magnus: 0.5,
 };
 

@@ -2,7 +2,7 @@
 
 use super::Lanes;
 use fearless_simd::Simd;
-use rapier3d::na::{Matrix3, Vector3};
+use rapier3d::na::{Matrix3, Vector2, Vector3};
 use std::fmt::Debug;
 
 /// What a field of a [`scalar_struct`] can be: a scalar, a vector or a matrix.
@@ -22,7 +22,7 @@ pub(crate) trait Field {
     ) -> Self::Of<U>;
 }
 
-/// The three kinds of field, for one type of component.
+/// The four kinds of field, for one type of component.
 macro_rules! fields_of {
     ($type:ident) => {
         impl Field for $type {
@@ -40,6 +40,24 @@ macro_rules! fields_of {
                 of: impl Fn(usize) -> U,
             ) -> U {
                 of(0)
+            }
+        }
+
+        impl Field for Vector2<$type> {
+            type Component = $type;
+            type Of<U: Copy + Debug + PartialEq + 'static> = Vector2<U>;
+            #[inline(always)]
+            fn component(&self, i: usize) -> $type {
+                self[i]
+            }
+            fn all(&self, is: impl Fn($type) -> bool) -> bool {
+                self.iter().all(|x| is(*x))
+            }
+            #[inline(always)]
+            fn from_components<U: Copy + Debug + PartialEq + 'static>(
+                of: impl Fn(usize) -> U,
+            ) -> Vector2<U> {
+                Vector2::new(of(0), of(1))
             }
         }
 

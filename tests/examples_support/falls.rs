@@ -128,8 +128,8 @@ fn a_law_that_pumps_energy_is_called_unstable() {
 fn coefficients_are_read_or_refused() {
     let thesis = law(LawName::Thesis, Some("1,2,-3")).unwrap();
     assert!(matches!(thesis, ViscousLaw::Thesis(t) if t.translational_lift == -3.0));
-    let physical = law(LawName::Default, Some("munk=0.5,attached-lift=3")).unwrap();
-    assert!(matches!(physical, ViscousLaw::Physical(p) if p.munk == 0.5 && p.attached_lift == 3.0));
+    let physical = law(LawName::Default, Some("munk=0.5,lift-slope=3")).unwrap();
+    assert!(matches!(physical, ViscousLaw::Physical(p) if p.munk == 0.5 && p.lift_slope == 3.0));
     // Every coefficient of the default law can be given.
     for row in PhysicalLaw::COEFFICIENTS {
         let text = format!("{}=0.75", row.name);

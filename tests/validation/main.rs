@@ -28,6 +28,7 @@ mod robustness;
 mod shapes;
 mod sleepers;
 mod sphere;
+mod static_polars;
 
 mod support;
 mod thesis_law;

@@ -7,90 +7,125 @@ use crate::geometry::Ellipsoid;
 use crate::hydro::properties::THIN;
 use crate::hydro::{HydroProperties, StokesResistance};
 use crate::math::{Scalar, scalar_struct};
-use rapier3d::na::Vector3;
+use rapier3d::na::{Vector2, Vector3};
 use std::f64::consts::PI;
 
 coefficients! {
     /// Coefficients of the default viscous law, dimensionless. One set serves every thin body: plates
-    /// in water, paper in air, discs of any Reynolds number.
+    /// in water, paper in air, discs of any Reynolds number, and wings.
     ///
     /// With n the plate normal, `c` the chord along the motion, `A` the planform area, `AR` the aspect
-    /// ratio span²/A, `Re = |u|c/ν`, and the angle of attack `s = sin α = |u·n|/|u|`, the flow is
-    /// attached to the share `f = 1/(1 + exp(2(s − s₀)/δ))`, and separated otherwise. All forces use the
-    /// velocity relative to the fluid **v** at the center of pressure `p = χ f c u_t/|u|`:
+    /// ratio span²/A, `Re = |u|c/ν`, `η = AR/(2 + √(AR² + 4))` (Helmbold 1942), and the angle of attack
+    /// `s = sin α = |u·n|/|u|`, the flow is attached to the share `f = 1/(1 + exp(2(s − s_e)/δ))`, and
+    /// separated otherwise. All forces use the velocity relative to the fluid **v** at the center of
+    /// pressure p:
     ///
-    /// * drag `−½ρA|v| (C_D0 + C_N sin²α + C_Di) v`: skin friction and edges in `C_D0`; in `C_N` the
-    ///   broadside value C_D90 − C_D0 from the measured disc curve, which passes to Stokes as Re → 0, and
-    ///   where the flow is attached the suction that a sharp leading edge loses, `2 k_s C_attached`
-    ///   (at `k_s` = 1 the force is normal to the plate);
-    /// * induced drag `C_Di = k_i C_L²/(π AR)` (linear for C_L ≫ 3) with the lift coefficient C_L of both lifts together, as
-    ///   of a finite wing (Prandtl 1918): it is what makes a tumbling disc drift so much less than a
-    ///   tumbling strip;
-    /// * translational lift `½ρA C_T sin 2α |v|²` ⟂ v, `C_T` from attached (f) to separated flow, each
-    ///   reduced by its aspect ratio, absent below the onset of the wake (Re ≈ 100);
-    /// * rotational lift `ρAc C_R (1 − ε sin²α) ω_t × v`;
-    /// * damping of the rotation by the pressure on the two halves of the plate and by friction;
-    /// * the Munk moment of the added mass weakened to `munk`, because separated flow does not recover
+    /// * **Stall.** `s_e = s₀ + s₁/AR + min(k r, s_d)`: small wings stall late. It moves with the *signed*
+    ///   pitch rate `r = (c/2|u|) dα/dt` as it does on helicopter blades (Gormont 1973): rotation that
+    ///   raises the angle of attack delays the stall, by `s_d` at most, rotation that lowers it hastens
+    ///   it. Without this plates that glide well no longer tumble.
+    /// * **Normal force** `½ρA C_N |v|²` with `C_N = s [f (2πhη + K_v (1 − η)² s) + (1 − f) 2 C_s]`:
+    ///   Helmbold's lift slope, the vortex lift of the side edges (Polhamus 1966: π for slender wings),
+    ///   and separated flow. With sin⁴α it turns into the measured drag coefficient C_D90 broadside on,
+    ///   which passes to Stokes as Re → 0. It is applied as a resistance plus a turning force that together
+    ///   are normal to the plate, so that a stalled plate does not push itself along; attached flow keeps
+    ///   `1 − k_s` of the suction at its leading edge. The turning force fades below the onset of the
+    ///   wake (Re ≈ 100).
+    /// * **Center of pressure** `p = c u_t/|u| [f χ (1 + (1 − η)⁴) + (1 − f) χ_s] Re/(Re + Re_χ)`: a
+    ///   quarter of the chord behind the leading edge in two dimensions, at the leading edge of slender
+    ///   wings (Jones 1946), within .02 chord of a vortex lattice between; in creeping flow in the middle.
+    /// * **Rotational lift** `ρAc (πhη/4)(1 − ε sin²α) ω_t × v`: the circulation follows the angle of
+    ///   attack at ¾ of the chord (Pistolesi's theorem), so that no coefficient of its own is needed.
+    /// * **Induced drag of the rotation** `C_Di = k_i C_L C_R/(π AR)` (linear for C_L ≫ 3), C_R being its
+    ///   lift and C_L that of both together: it is what makes a tumbling disc drift so much less than a
+    ///   tumbling strip. That of the angle of attack is part of the normal force.
+    /// * **Friction** `k_f Re^−½` (two sides of a laminar boundary layer: 2.66) and the drag `k_e t/c` of the
+    ///   edges.
+    /// * **Damping** of the rotation by the pressure on the two halves of the plate, `½ρC_D90 (I₂ K₁|u| + I₃
+    ///   K₂|ω|)` with `K₁ = f k₁ₐ + (1 − f) k₁`, and by friction.
+    /// * **Munk moment** of the added mass weakened to `munk`, because separated flow does not recover
     ///   the pressure that makes it; what of the added mass is the same in all directions, and makes no
     ///   moment, is left as it is, and so are bodies that are as thick as wide.
+    ///
+    /// What rotation adds depends on the aspect ratio: disc and strip want other values of k, C_s, χ_s, ε,
+    /// k₁ and k₂. Each of them has a value for wide plates (AR → ∞) and one for narrow ones (AR → 0,
+    /// `…_narrow`), and `η²` leads from the one to the other: .09 for discs and squares, .29 at AR 3, .87 for
+    /// strips of AR 29.
     ///
     /// No term can add energy to body and fluid: drag opposes v, the lifts are perpendicular to it, and
     /// the torque is that of the same force at the same point.
     ///
     /// The numbers come from a global search against falling plates in water (Andersen, Pesavento &
-    /// Wang 2005), the regime map of discs (Field et al. 1997) and falling paper (Howison et al. 2020):
-    /// [`training::fidelity`](crate::training::fidelity), example `calibrate`. What they reach is in
-    /// the table of the example `validation`.
-    ///
-    /// **It is no wing's law**: what was fitted falls and turns. A plate that is held in a steady stream (sections
-    /// `polars` and `gliders` of that example) has 1.5 to 2.1 times the lift slope of Helmbold (1942), 1.5 in two
-    /// dimensions and 2.1 at aspect ratio 1; at aspect ratio 6 it stalls at 41° instead of 12° to 15°, with a lift
-    /// coefficient of 3.0 instead of 0.8; its center of pressure at 5° is 0.42 chords behind the leading edge instead
-    /// of 0.17 to 0.25; stalled, it pushes itself along with 20 to 52 % of the normal force, where a real one is
-    /// pressed along its normal alone; and no weighted card glides.
+    /// Wang 2005), the regime map of discs (Field et al. 1997), falling paper (Howison et al. 2020), static
+    /// polars and gliders: [`training::fidelity`](crate::training::fidelity), example `calibrate`. What
+    /// they reach, and what they miss, is in the table of the example `validation`.
     ///
     /// Bodies that are not plates blend, by thickness, into bluff bodies with drag coefficients from their own
     /// geometry ([`BluffShape`](crate::BluffShape)), with a Magnus force instead of the plate's lifts.
     pub struct PhysicalLaw {
-        /// χ: travel of the center of pressure toward the leading edge in attached flow, in chords.
-        pressure_travel: 0.0962, NotNegative, search 0.0 to 0.3;
-        /// C_attached: lift slope of attached flow, before the aspect ratio's `AR/(AR + λ₁)`.
-        attached_lift: 5.12, NotNegative, search 1.5 to 7.0;
-        /// λ₁.
-        attached_aspect: 2.06, NotNegative, search 0.3 to 6.0;
-        /// C_stalled: lift coefficient of separated flow, before `AR/(AR + λ₂)`.
-        stalled_lift: 2.0, NotNegative, search 0.2 to 3.0;
-        /// λ₂.
-        stalled_aspect: 1.1, NotNegative, search 0.0 to 6.0;
-        /// s₀: sine of the angle of attack at which the flow stalls.
-        stall_sine: 0.835, NotNegative, search 0.2 to 1.5;
+        /// χ: travel of the center of pressure toward the leading edge in attached flow of two dimensions, in
+        /// chords; ¼ in theory.
+        pressure_travel: 0.244, NotNegative, search 0.22 to 0.28;
+        /// h: lift slope over Helmbold's.
+        lift_slope: 1.01, NotNegative, search 0.93 to 1.08;
+        /// K_v: vortex lift of slender plates; π in theory.
+        vortex_lift: 2.97, NotNegative, search 1.0 to 6.0;
+        /// C_s: half the slope of the normal force of separated flow; of wide plates.
+        stalled_lift: 0.585, NotNegative, search 0.4 to 1.3;
+        /// C_s of narrow plates.
+        stalled_lift_narrow: 0.992, NotNegative, search 0.4 to 1.2;
+        /// s₀: sine of the angle of attack at which the flow stalls in two dimensions.
+        stall_sine: 0.16, NotNegative, search 0.08 to 0.35;
+        /// s₁: what is added to it per 1/AR.
+        stall_aspect: 0.525, NotNegative, search 0.2 to 0.8;
         /// δ: width of the stall in sin α.
-        stall_width: 0.812, Positive, search 0.05 to 1.2;
-        /// C_R: rotational lift, before `AR/(AR + λ_R)`.
-        rotational_lift: 1.89, NotNegative, search 0.2 to 4.0;
-        /// λ_R.
-        rotational_aspect: 6.55, NotNegative, search 0.0 to 12.0;
-        /// ε: loss of rotational lift broadside on.
-        rotational_stall: 0.176, Unit, search 0.0 to 1.0;
+        stall_width: 0.053, Positive, search 0.03 to 0.25;
+        /// k: shift of the stall's sine by the signed pitch rate; of wide plates.
+        pitch_stall: 7.35, NotNegative, search 0.0 to 14.0;
+        /// k of narrow plates.
+        pitch_stall_narrow: 0.149, NotNegative, search 0.0 to 3.0;
+        /// s_d: greatest delay of the stall's sine by rotation.
+        stall_delay: 0.0153, NotNegative, search 0.0 to 0.6;
+        /// χ_s: travel of the center of pressure in separated flow, in chords; of wide plates.
+        stalled_travel: 0.136, NotNegative, search 0.0 to 0.25;
+        /// χ_s of narrow plates.
+        stalled_travel_narrow: 0.0342, NotNegative, search 0.0 to 0.25;
+        /// Re_χ: below it the center of pressure stays in the middle.
+        travel_onset: 14.7, NotNegative, search 10.0 to 40.0;
+        /// ε: loss of rotational lift broadside on; of wide plates.
+        rotational_stall: 0.0108, Unit, search 0.0 to 1.0;
+        /// ε of narrow plates.
+        rotational_stall_narrow: 0.218, Unit, search 0.0 to 1.0;
         /// k_M ∈ [0, 1]: share of the added mass's inertial coupling (Munk moment) that plates feel.
-        munk: 0.0345, Unit, search 0.0 to 1.0;
-        /// k₁: damping of rotation by translation.
-        translation_damping: 0.0827, NotNegative, search 0.0 to 1.5;
-        /// k₂: damping of rotation by rotation.
-        rotation_damping: 3.41, NotNegative, search 0.0 to 10.0;
+        munk: 0.104, Unit, search 0.0 to 1.0;
+        /// k₁ₐ: damping of pitching by translation in attached flow; 2.5 in theory in two dimensions, and not much less at slender plates.
+        attached_damping: 2.14, NotNegative, search 0.0 to 4.0;
+        /// k_p: damping of rolling in attached flow, in units of strip theory's `2πη/C_D90`; of wide plates, where it is 1
+        /// in theory.
+        roll_damping: 0.95, NotNegative, search 0.4 to 1.6;
+        /// k_p of narrow plates; 3/8 in the theory of slender wings (Jones 1946).
+        roll_damping_narrow: 0.375, NotNegative;
+        /// k₁: damping of rotation by translation in separated flow; of wide plates.
+        translation_damping: 0.461, NotNegative, search 0.0 to 4.0;
+        /// k₁ of narrow plates.
+        translation_damping_narrow: 0.176, NotNegative, search 0.0 to 4.0;
+        /// k₂: damping of rotation by rotation; of wide plates.
+        rotation_damping: 0.646, NotNegative, search 0.0 to 5.0;
+        /// k₂ of narrow plates.
+        rotation_damping_narrow: 0.0162, NotNegative, search 0.0 to 5.0;
         /// k_f: skin friction, `k_f Re^−½`.
-        friction: 2.46, NotNegative, search 1.0 to 9.0;
+        friction: 2.49, NotNegative, search 2.4 to 5.0;
         /// k_e: pressure drag of the edges, per thickness over chord.
-        edge_drag: 0.0, NotNegative, search 0.0 to 2.0;
+        edge_drag: 0.593, NotNegative, search 0.0 to 2.0;
         /// Re_L: onset of the wake's lift, `1/(1 + (Re_L/Re)⁷)`.
-        lift_onset: 119.0, NotNegative, search 50.0 to 140.0;
+        lift_onset: 90.8, NotNegative, search 50.0 to 140.0;
         /// Re_D: below it rotation is damped more, `1 + (Re_D/Re)^1.5`.
-        damping_onset: 52.9, NotNegative, search 0.0 to 60.0;
+        damping_onset: 41.5, NotNegative, search 0.0 to 60.0;
         /// k_s: share of the leading edge's suction that attached flow loses: at 1 its force is normal to
         /// the plate.
-        suction_loss: 0.877, NotNegative, search 0.0 to 1.3;
-        /// k_i: induced drag, in units of the elliptic wing's.
-        induced_drag: 1.54, NotNegative, search 0.0 to 3.0;
+        suction_loss: 0.969, Unit, search 0.6 to 1.0;
+        /// k_i: induced drag of the rotation, in units of the elliptic wing's.
+        induced_drag: 6.91, NotNegative, search 0.0 to 12.0;
         /// Lift of spinning bodies that are not plates, the Magnus force, in units of that of a ball:
         /// `C_L = S/(2.32 S + 0.4)` on the shadow of the sphere of the same volume, of radius R, with the
         /// spin ratio `S = R|ω × û|/|u|`. Fitted to baseballs (Nathan, *Am. J. Phys.* 76, 119 (2008): S from
@@ -122,19 +157,26 @@ scalar_struct! {
         edge_drag: T,
         /// Creeping resistance along x, y, z, 1/s.
         creeping: Vector3<T>,
-        attached_lift: T,
-        attached_aspect: T,
-        stalled_lift: T,
-        stalled_aspect: T,
+        lift_slope: T,
+        vortex_lift: T,
+        /// At wide plates, and what is added at narrow ones.
+        stalled_lift: Vector2<T>,
         stall_sine: T,
+        stall_aspect: T,
         stall_rate: T,
-        rotational_lift: T,
-        rotational_aspect: T,
-        rotational_stall: T,
+        pitch_stall: Vector2<T>,
+        stall_delay: T,
+        pressure_travel: T,
+        stalled_travel: Vector2<T>,
+        travel_onset: T,
+        rotational_stall: Vector2<T>,
+        attached_damping: T,
+        roll_damping: Vector2<T>,
+        translation_damping: Vector2<T>,
+        rotation_damping: Vector2<T>,
         lift_onset: T,
         damping_onset: T,
-        pressure_travel: T,
-        attached_drag: T,
+        suction_gain: T,
         induced_drag: T,
         /// Damping of the rotation about x, y, z by the pressure, per speed (1/m) …
         damping_u: Vector3<T>,
@@ -199,6 +241,11 @@ fn creeping_resistance(hydro: &HydroProperties, plate_share: f64) -> StokesResis
     }
 }
 
+/// A coefficient of narrow plates, and what wide ones have more.
+fn between(wide: f64, narrow: f64) -> Vector2<f64> {
+    Vector2::new(narrow, wide - narrow)
+}
+
 impl PhysicalLaw {
     /// Share of the added mass's coupling that a body feels: `munk` for plates and other squat bodies with
     /// edges, behind which the flow is separated, all of it for long ones and for round ones.
@@ -258,12 +305,8 @@ impl PhysicalLaw {
         let second = [plate.second_moment.x, plate.second_moment.y, edge_on.0];
         let third = [plate.third_moment.x, plate.third_moment.y, edge_on.1];
         // What of it is no plate is damped as a bluff body.
-        let by_u = |i: usize| {
-            share * (pressure * flat[i] * second[i] * self.translation_damping / length.powi(2))
-        };
-        let by_w = |i: usize| {
-            share * (pressure * flat[i] * third[i] * self.rotation_damping / length.powi(3))
-        };
+        let by_u = |i: usize| share * pressure * flat[i] * second[i] / length.powi(2);
+        let by_w = |i: usize| share * pressure * flat[i] * third[i] / length.powi(3);
         PhysicalConstants {
             dynamic_area: 0.5 * rho * plate.area / mass,
             extent_x2: (plate.half_extents.x / length).powi(2),
@@ -274,21 +317,35 @@ impl PhysicalLaw {
             broadside_plateau: plateau,
             broadside_mid: DISC_MID.0 * plateau / DISC_PLATEAU,
             friction: self.friction,
-            edge_drag: self.edge_drag * plate.thickness / length,
+            // The edges of slabs are those of the bluff body that they partly are.
+            edge_drag: self.edge_drag * (1.0 - hydro.thickness()) * plate.thickness / length,
             creeping: drag,
-            attached_lift: self.attached_lift * share,
-            attached_aspect: self.attached_aspect,
-            stalled_lift: self.stalled_lift * share,
-            stalled_aspect: self.stalled_aspect,
+            lift_slope: self.lift_slope * 2.0 * PI * share,
+            vortex_lift: self.vortex_lift * share,
+            stalled_lift: between(
+                2.0 * share * self.stalled_lift,
+                2.0 * share * self.stalled_lift_narrow,
+            ),
             stall_sine: self.stall_sine,
+            stall_aspect: self.stall_aspect,
             stall_rate: 2.0 / self.stall_width,
-            rotational_lift: self.rotational_lift * share,
-            rotational_aspect: self.rotational_aspect,
-            rotational_stall: self.rotational_stall,
+            pitch_stall: between(self.pitch_stall, self.pitch_stall_narrow),
+            stall_delay: self.stall_delay,
+            pressure_travel: self.pressure_travel * share,
+            stalled_travel: between(
+                self.stalled_travel * share,
+                self.stalled_travel_narrow * share,
+            ),
+            travel_onset: self.travel_onset,
+            rotational_stall: between(self.rotational_stall, self.rotational_stall_narrow),
+            attached_damping: self.attached_damping,
+            roll_damping: between(self.roll_damping, self.roll_damping_narrow)
+                * (2.0 * PI / plateau),
+            translation_damping: between(self.translation_damping, self.translation_damping_narrow),
+            rotation_damping: between(self.rotation_damping, self.rotation_damping_narrow),
             lift_onset: self.lift_onset,
             damping_onset: self.damping_onset,
-            pressure_travel: self.pressure_travel * share,
-            attached_drag: 2.0 * self.suction_loss,
+            suction_gain: 1.0 - self.suction_loss,
             induced_drag: self.induced_drag / PI,
             damping_u: Vector3::new(by_u(0), by_u(1), by_u(2)),
             damping_w: Vector3::new(by_w(0), by_w(1), by_w(2)),
@@ -312,20 +369,42 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         // of the two is the same in every direction. For motion along n any direction will do.
         let tiny = constant(1e-12);
         let (ux2, uy2) = (u.x * u.x + tiny, u.y * u.y + tiny);
-        let span2 = constant(4.0) * (self.extent_x2 * uy2 + self.extent_y2 * ux2) / (ux2 + uy2);
-        let chord = constant(4.0) * self.extent_product / span2.sqrt();
-        let aspect = span2 / self.area;
+        let along_x2 = ux2 / (ux2 + uy2);
+        let along_y2 = one - along_x2;
+        let span2 = constant(4.0) * (self.extent_x2 * along_y2 + self.extent_y2 * along_x2);
+        let per_span = one / span2.sqrt();
+        let chord = constant(4.0) * self.extent_product * per_span;
+        let per_aspect = self.area * per_span * per_span;
         let re = (speed * chord * self.reynolds_scale).max(constant(1e-3));
 
-        // How much of the flow is attached, by the center's angle of attack.
-        let stall = self.stall_rate * (u.z.abs() * per_speed - self.stall_sine);
-        let attached = one / (one + stall.exp());
+        // Helmbold's loss of lift slope, AR/(2 + √(AR² + 4)), and what follows the aspect ratio with it.
+        let tips = per_aspect + per_aspect;
+        let finite = (one + tips * tips).sqrt() - tips;
+        let wide = finite * finite;
+        let at_aspect = |of: Vector2<T>| of.x + of.y * wide;
+        let slender2 = (one - finite) * (one - finite);
 
-        // Pressure point and its velocity. Separated flow presses on the center.
-        // In creeping flow there is no such point: a body keeps its tilt. All of the travel is there from
-        // Re = 100 on, where the calibration begins.
-        let inertial = (constant(1.1) * re / (re + constant(10.0))).min(one);
-        let travel = self.pressure_travel * attached * chord * per_speed * inertial;
+        // How much of the flow is attached, by the center's angle of attack. Rotation that raises it
+        // delays the stall, rotation that lowers it hastens it.
+        let sine_center = u.z * per_speed;
+        let sine_center2 = sine_center * sine_center;
+        let turning = (w.y * u.x - w.x * u.y) * per_speed;
+        let double2 = constant(4.0) * sine_center2 * (one - sine_center2);
+        let rate = turning * sine_center * chord * per_speed / (double2 + constant(0.1)).sqrt();
+        let shift = (at_aspect(self.pitch_stall) * rate).min(self.stall_delay);
+        let stall_sine =
+            (self.stall_sine + self.stall_aspect * per_aspect + shift).max(constant(0.03));
+        let stall = self.stall_rate * (sine_center.abs() - stall_sine);
+        let attached = one / (one + stall.min(constant(60.0)).exp());
+
+        // Pressure point and its velocity.
+        let stalled_travel = at_aspect(self.stalled_travel);
+        let attached_travel = self.pressure_travel * (one + slender2 * slender2);
+        let travel = (stalled_travel + attached * (attached_travel - stalled_travel))
+            * chord
+            * per_speed
+            * re
+            / (re + self.travel_onset);
         let arm = Vector3::new(travel * u.x, travel * u.y, zero);
         let vz = u.z + w.x * arm.y - w.y * arm.x;
         let v_speed = (tangential2 + vz * vz).sqrt();
@@ -333,19 +412,9 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let sine = vz * per_v;
         let sine2 = sine * sine;
 
-        // Lifts: W of the force W × v.
         let onset = self.lift_onset / re;
         let onset2 = onset * onset;
         let wake = one / (one + onset2 * onset2 * onset2 * onset);
-        let slope = self.attached_lift * aspect / (aspect + self.attached_aspect);
-        let stalled = self.stalled_lift * aspect / (aspect + self.stalled_aspect);
-        let density_area = self.dynamic_area + self.dynamic_area;
-        let translational = density_area * wake * sine * (stalled + attached * (slope - stalled));
-        let rotational = density_area * chord * self.rotational_lift * wake * aspect
-            / (aspect + self.rotational_aspect)
-            * (one - self.rotational_stall * sine2);
-        let by_angle = Vector3::new(-u.y, u.x, zero) * translational;
-        let by_spin = Vector3::new(rotational * w.x, rotational * w.y, zero);
 
         // Drag of the plate. Its creeping part is the linear resistance; what is left broadside is
         // the larger of the disc's mid range and its plateau.
@@ -358,27 +427,50 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let creeping_share = self.creeping.z * per_speed / self.dynamic_area;
         let broadside = mid.max(self.broadside_plateau - creeping_share);
         let edgewise = self.friction / re.sqrt() + self.edge_drag / chord;
-        // Attached flow that does not turn round the sharp edge pulls the lift back to the normal;
-        // broadside on there is no such flow.
         let across = broadside - edgewise;
-        let behind = (self.attached_drag * slope - across).max(zero);
-        let normal = across + wake * attached * (one - sine2) * behind;
-        // Induced drag of both lifts, C_L²/(π AR (1 + 0.3 C_L)): linear where C_L is large, so that a
-        // body that hardly does more than spin does not lose its whole velocity at once.
+
+        // Normal force over sin α; broadside on it is the drag's.
+        let slope = self.lift_slope * finite;
+        let stalled = at_aspect(self.stalled_lift);
+        let vortex = self.vortex_lift * slender2 * sine.abs();
+        let normal = stalled + attached * (slope + vortex - stalled);
+        let normal = normal - sine2 * sine2 * (normal - across).max(zero);
+        let translational = self.dynamic_area * wake * sine_center * normal;
+        let rotational = self.dynamic_area
+            * chord
+            * wake
+            * constant(0.25)
+            * slope
+            * (one - at_aspect(self.rotational_stall) * sine2);
+        let by_angle = Vector3::new(-u.y, u.x, zero) * translational;
+        let by_spin = Vector3::new(rotational * w.x, rotational * w.y, zero);
+
+        let suction = one - self.suction_gain * attached;
+        let pressure = across + wake * (suction * normal - across).max(zero);
+        // Induced drag of the rotation's lift; that of the angle of attack is in the normal force.
         let (wx, wy) = (by_angle.x + by_spin.x, by_angle.y + by_spin.y);
         let lift = (wx * wx + wy * wy).sqrt();
         let dynamic = self.dynamic_area * v_speed;
-        let induced =
-            self.induced_drag * lift * lift / (aspect * (dynamic + constant(0.3) * lift).max(tiny));
-        let drag = dynamic * (edgewise + normal * sine2) + induced;
+        let spin = (w.x * w.x + w.y * w.y).sqrt();
+        let turned = rotational * spin;
+        let induced = self.induced_drag * lift * turned * per_aspect
+            / (dynamic + constant(0.3) * lift).max(tiny);
+        let drag = dynamic * (edgewise + pressure * sine2) + induced;
 
         // Damping. √(Re² + 1) keeps the low-Reynolds increase finite in a body at rest, where the
         // creeping resistance has long taken over.
         let onset = self.damping_onset / (re * re + one).sqrt();
+        let stalled_damping = at_aspect(self.translation_damping);
+        let rolling = at_aspect(self.roll_damping) * finite - self.attached_damping;
         let by_speed = speed * (one + onset * onset.sqrt());
-        let spin = (w.x * w.x + w.y * w.y).sqrt();
+        let pitching =
+            by_speed * (stalled_damping + attached * (self.attached_damping - stalled_damping));
+        let rolling = by_speed * attached * rolling;
+        let rotation_damping = at_aspect(self.rotation_damping);
+        let spin = spin * rotation_damping;
         let spin_z = w.z.abs();
         let friction = self.spin_friction * (speed + chord * spin_z);
+        let spin_z = spin_z * rotation_damping;
         ViscousTerms {
             drag,
             creeping: self.creeping,
@@ -388,9 +480,13 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
             arm_moves: true,
             offset: Vector3::repeat(zero),
             damping: Vector3::new(
-                self.damping_u.x * by_speed + self.damping_w.x * spin + self.creeping_spin.x,
-                self.damping_u.y * by_speed + self.damping_w.y * spin + self.creeping_spin.y,
-                self.damping_u.z * by_speed
+                self.damping_u.x * (pitching + rolling * along_x2)
+                    + self.damping_w.x * spin
+                    + self.creeping_spin.x,
+                self.damping_u.y * (pitching + rolling * along_y2)
+                    + self.damping_w.y * spin
+                    + self.creeping_spin.y,
+                self.damping_u.z * pitching
                     + self.damping_w.z * spin_z
                     + friction
                     + self.creeping_spin.z,

@@ -28,10 +28,15 @@ coefficients! {
         /// κ: the unit vector of ω × u is regularised to `ω × u / (|ω × u| + κ |u|²/L)`, with L the
         /// major semi-axis, so that the lifts fade where the body hardly turns.
         regularisation: 0.02, NotNegative;
-        /// Share of the rotational damping of the default law, at least 0.
+        /// Share of a plate's rotational damping, that of the default law with k₁ = 0.0827 and k₂ = 3.41; at
+        /// least 0.
         damping: 0.3, NotNegative;
     }
 }
+
+/// k₁ and k₂ of the rotational damping, of which the law takes a share: an earlier calibration of the
+/// default law, with which this crate's figures of the thesis were made.
+const DAMPING: [f64; 2] = [0.0827, 3.41];
 
 impl ThesisLaw {
     /// The law for use: regularised and damped. C̃ = (C_D, C_L1, C_L2).
@@ -100,8 +105,8 @@ impl ThesisLaw {
             // |ω × u| is compared in units of speed², hence the division by the major semi-axis.
             regularisation: self.regularisation / major,
             major,
-            damping_u: default.damping_u * self.damping,
-            damping_w: default.damping_w * self.damping,
+            damping_u: default.damping_u * (self.damping * DAMPING[0]),
+            damping_w: default.damping_w * (self.damping * DAMPING[1]),
             creeping_spin: default.creeping_spin * self.damping,
         }
     }

@@ -169,7 +169,7 @@ fn discs(map: &DiscMap) -> f64 {
 fn paper(result: &PaperResult) -> f64 {
     let descent = error(result.mean(|fall| fall.descent), result.drop.descent, 0.1);
     let drift = error(result.mean(|fall| fall.drift), result.drop.drift, 0.3);
-    let beyond = (descent - 0.8).max(0.0) + (drift - 0.8).max(0.0);
+    let beyond = 2.0 * (descent - 0.8).max(0.0) + (drift - 0.8).max(0.0);
     0.02 * (descent + drift) + 0.15 * beyond
 }
 

@@ -72,8 +72,11 @@ fn drag_of_the_edges() {
 fn friction_of_a_spinning_plate() {
     let side = 0.2;
     let law = PhysicalLaw {
+        attached_damping: 0.0,
         translation_damping: 0.0,
+        translation_damping_narrow: 0.0,
         rotation_damping: 0.0,
+        rotation_damping_narrow: 0.0,
         ..PhysicalLaw::default()
     };
     // So thin a fluid that creeping flow takes 1e-7 of what is looked at.

@@ -71,7 +71,7 @@ fn stochastic_law() {
 }
 
 /// Drag −½ρA C_D sin²α |u|u, and lifts along ω × u and (ω × u) × u with C_L1 sin 2α and C_L2 cos 2α (thesis
-/// (5.15) to (5.17)), the unit vector of ω × u regularised by κ|u|²/L; the share 0.6 of the default law's damping.
+/// (5.15) to (5.17)), the unit vector of ω × u regularised by κ|u|²/L; the share 0.6 of a plate's damping.
 #[test]
 fn thesis_law() {
     let law = ThesisLaw {
@@ -85,6 +85,11 @@ fn thesis_law() {
     // The damping of a plate does not depend on what else the default law does.
     let (default, _) = body(ViscousLaw::Physical(PhysicalLaw {
         damping_onset: 0.0,
+        attached_damping: 0.0827,
+        translation_damping: 0.0827,
+        translation_damping_narrow: 0.0827,
+        rotation_damping: 3.41,
+        rotation_damping_narrow: 3.41,
         ..PhysicalLaw::default()
     }));
     for (u, w) in STATES {

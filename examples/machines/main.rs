@@ -1,0 +1,61 @@
+//! Machines that air and water drive: built of rapier's bodies, their parts and joints.
+//!
+//! ```text
+//! cargo run --release --example machines -- windmill
+//! cargo run --release --example machines -- all      # every one of them
+//! ```
+//!
+//! Each writes `out/machines/NAME.svg` and prints what it did beside what it should do. Each is one file here, of the
+//! body and its parts first.
+
+#[path = "../support/draw.rs"]
+mod draw;
+mod film;
+mod windmill;
+
+use film::Shown;
+use std::path::Path;
+use std::process::ExitCode;
+
+type Failure = Box<dyn std::error::Error>;
+
+/// A machine: its name, what it is, and its run.
+type Machine = (&'static str, &'static str, fn() -> Result<Shown, Failure>);
+
+const MACHINES: &[Machine] = &[(
+    "windmill",
+    "three blades of strips on a hub, free to turn",
+    windmill::show,
+)];
+
+fn main() -> ExitCode {
+    let wanted = std::env::args().nth(1).unwrap_or_default();
+    let chosen: Vec<_> = MACHINES
+        .iter()
+        .filter(|(name, ..)| wanted == "all" || wanted == *name)
+        .collect();
+    if chosen.is_empty() {
+        eprintln!("machines NAME, where NAME is one of:");
+        for (name, what, _) in MACHINES {
+            eprintln!("  {name:14} {what}");
+        }
+        eprintln!("  all");
+        return ExitCode::FAILURE;
+    }
+    for (name, what, show) in chosen {
+        println!("{name}: {what}");
+        let path = format!("out/machines/{name}.svg");
+        let written = show().and_then(|shown| {
+            for line in &shown.lines {
+                println!("  {line}");
+            }
+            film::write(Path::new(&path), &shown)
+        });
+        if let Err(problem) = written {
+            eprintln!("{name}: {problem}");
+            return ExitCode::FAILURE;
+        }
+        println!("  → {path}");
+    }
+    ExitCode::SUCCESS
+}
