@@ -8,7 +8,8 @@ use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{Key, MotionPath, WindResponse};
 use rapier3d_immersed::playback::{Drive, MotionPlayer, MotionPlayers};
 use rapier3d_immersed::rapier3d::prelude::*;
-use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets};
+use rapier3d_immersed::turbulence::{Turbulence, TurbulenceState};
+use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part, RapierSets};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -57,7 +58,8 @@ fn touching(world: &mut PhysicsWorld, leaves: &[RigidBodyHandle]) -> usize {
 /// In turn: the counter is one for all threads.
 #[test]
 fn steps_allocate_nothing() {
-    before_and_after_allocate_nothing_in_flight();
+    before_and_after_allocate_nothing_in_flight(0);
+    before_and_after_allocate_nothing_in_flight(3);
     for kinematic in [true, false] {
         players_allocate_nothing(kinematic);
     }
@@ -109,7 +111,7 @@ fn players_allocate_nothing(kinematic: bool) {
     assert_eq!(ours, least, "kinematic: {kinematic}");
 }
 
-fn before_and_after_allocate_nothing_in_flight() {
+fn before_and_after_allocate_nothing_in_flight(parts: usize) {
     let mut world = PhysicsWorld::new();
     let leaves: Vec<_> = (0..100)
         .map(|i| {
@@ -129,7 +131,17 @@ fn before_and_after_allocate_nothing_in_flight() {
     let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaves[0]).unwrap();
     let mut immersion = Immersion::new(Fluid::AIR);
     immersion.set_flow(rapier3d_immersed::flow::Uniform::new(1.0, 0.0, 0.0));
-    immersion.insert_all(leaves.iter().copied(), hydro);
+    let mut body = ImmersedBody::new(hydro);
+    if parts > 0 {
+        let plate = Cuboid::new(Vector::new(0.04, 0.0003, 0.02));
+        let strips = HydroProperties::strips_of_shape(&plate, parts).unwrap();
+        body = body.with_parts(strips.into_iter().map(Part::new));
+        immersion.set_turbulence(Turbulence::Homogeneous(TurbulenceState {
+            kinetic_energy: 0.1,
+            dissipation: 0.05,
+        }));
+    }
+    immersion.insert_all(leaves.iter().copied(), body);
     // Lists grow to their size.
     for _ in 0..20 {
         immersion.step(&mut world);

@@ -225,7 +225,11 @@ fn solid_parts<'a>(
     if parts.is_empty() {
         return Err(Error::NoCollider);
     }
-    Ok((parts, DryMass::of_body(bodies, colliders, handle)?.center))
+    match DryMass::of_body(bodies, colliders, handle) {
+        Ok(mass) => Ok((parts, mass.center)),
+        // A shape that cannot be is the reason rather than its mass.
+        Err(problem) => Surface::of_parts(&parts, Surface::from_shape).and(Err(problem)),
+    }
 }
 
 /// Enabled colliders of a body with their poses in its frame.

@@ -7,7 +7,6 @@
 
 use super::admission::Admission;
 use super::body_look::{BodyChanges, KeptCollider};
-use super::body_state::NONE;
 use super::rapier_sets::RapierSets;
 use super::saved_properties::{Difference, SavedProperties};
 use super::warning::Warning;
@@ -116,10 +115,7 @@ impl Admission<'_> {
                 ..ImmersedBody::new(hydro)
             };
             let description = self.registry.describe(body);
-            if let Some(state) = self.registry.at_mut(index) {
-                state.description = description;
-                state.constants = NONE;
-            }
+            self.registry.redescribe(index, description);
         } else if !warned {
             if let Some(state) = self.registry.at_mut(index) {
                 state.warned.shape_kept = true;

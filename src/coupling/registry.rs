@@ -130,20 +130,17 @@ impl Registry {
             return;
         }
         self.changed = true;
-        let before = self
-            .get_mut(handle)
-            .and_then(|state| state.equipment.take());
-        let body = self.descriptions.get(description);
-        let equipment = body.and_then(|body| Equipment::of(body, before));
-        if let Some(state) = self.get_mut(handle) {
-            state.equipment = equipment;
-            state.description = description;
-            state.constants = NONE;
-            state.outdated = true;
-            state.described_anew = true;
-            state.left = None;
+        if let Some(index) = self.index(handle) {
+            self.redescribe(index, description);
+            if let Some(state) = self.at_mut(index) {
+                state.outdated = true;
+                state.described_anew = true;
+                state.left = None;
+            }
             return;
         }
+        let body = self.descriptions.get(description);
+        let equipment = body.and_then(|body| Equipment::of(body, None));
         let rapier_index = handle.into_raw_parts().0 as usize;
         if self.lookup.len() <= rapier_index {
             self.lookup.resize(rapier_index + 1, NONE);
@@ -175,6 +172,16 @@ impl Registry {
             flight: FlightState::default(),
             equipment,
         });
+    }
+
+    /// Gives the body of an index another description, with the equipment that goes with it.
+    pub fn redescribe(&mut self, index: usize, description: u32) {
+        let state = self.bodies.get_mut(index).and_then(Option::as_mut);
+        if let (Some(state), Some(body)) = (state, self.descriptions.get(description)) {
+            state.equipment = Equipment::of(body, state.equipment.take());
+            state.description = description;
+            state.constants = NONE;
+        }
     }
 
     /// Takes a body out; unknown handles give `None`.

@@ -3,7 +3,8 @@
 //!
 //! [`Uniform`], [`Shear`], [`Vortex`] and [`Gust`] have closed forms and cost next to nothing; [`LogLaw`]
 //! is the mean wind over ground. [`GridFlow`] looks up a field that was computed elsewhere, and
-//! [`SpectralWind`] a gusty wind of a prescribed spectrum. [`Layers`] adds several of them up, and any other
+//! [`SpectralWind`] a gusty wind of a prescribed spectrum. [`Within`] keeps a flow to a volume, [`Shelter`] weakens it
+//! behind obstacles. [`Layers`] adds several of them up, and any other
 //! field implements [`Flow`]. Fluctuations that are too fine for any field are turbulence: see
 //! [`turbulence`](crate::turbulence).
 //!
@@ -33,19 +34,23 @@ mod grid;
 mod lattice;
 mod layers;
 mod log_law;
+mod shelter;
 mod wind;
 #[cfg(feature = "bake")]
 mod wind_bake;
 #[cfg(feature = "bake")]
 mod wind_params;
+mod within;
 
 pub use analytic::{Gust, Shear, Vortex};
 pub use grid::GridFlow;
 pub use layers::Layers;
 pub use log_law::LogLaw;
+pub use shelter::Shelter;
 pub use wind::{HeightLaw, SpectralWind};
 #[cfg(feature = "bake")]
 pub use wind_params::{Spectrum, WindParams};
+pub use within::Within;
 
 use rapier3d::math::{Real, Vector};
 
@@ -100,7 +105,7 @@ impl std::ops::Mul<Real> for StrainRate {
 
 /// A velocity field: the one trait that users implement.
 ///
-/// Bodies feel the flow at their center of mass. All quantities are in world axes and SI units;
+/// Bodies feel the flow at their center of mass, bodies of parts at each part. All quantities are in world axes and SI units;
 /// `time` is the [time of the immersion](crate::Immersion::time): the seconds that it has been stepped.
 ///
 /// ```

@@ -313,7 +313,8 @@ mod tests {
         let plate = Plate::new(1.0 / 8.0, Regime::PeriodicTumbling).unwrap();
         let law = ViscousLaw::default();
         let mut experiment = plate.experiment(&law, 0.8, 1).unwrap();
-        experiment.seconds = 1.0;
+        // Rounding of single precision grows a hundredfold in a turn of the plate.
+        experiment.seconds = 0.25;
         let alone = experiment.run().unwrap();
         let rapier = experiment.run_in_rapier().unwrap();
         assert_eq!(alone.moments.len(), rapier.moments.len());

@@ -1,9 +1,11 @@
 //! The same result, bit for bit: in two runs, for any number of threads, whoever else flies, and
 //! after a snapshot.
 
+use rapier3d_immersed::rapier3d::na;
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{
-    Fluid, HydroProperties, ImmersedBody, Immersion, StochasticLaw, ThesisLaw, ViscousLaw,
+    Fluid, Hinge, HydroProperties, ImmersedBody, Immersion, Part, StochasticLaw, ThesisLaw,
+    Thruster, ViscousLaw,
 };
 
 /// Leaves of several kinds and laws over a floor.
@@ -32,8 +34,21 @@ fn scene(count: usize) -> (PhysicsWorld, Immersion, Vec<RigidBodyHandle>) {
             )
             .0;
         let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, handle).unwrap();
-        let body = ImmersedBody::new(hydro).with_law(laws[i % 7 % 3]).unwrap();
+        let mut body = ImmersedBody::new(hydro).with_law(laws[i % 7 % 3]).unwrap();
+        // Some are of parts, of which one is a flap, or have an engine.
+        if i % 4 == 3 {
+            let plate = Cuboid::new(Vector::new(0.04, 0.0005, wide));
+            let strips = HydroProperties::strips_of_shape(&plate, 2 + i % 3).unwrap();
+            let hinge = Hinge::new(Default::default(), na::Vector3::x()).unwrap();
+            let flap = |strip| Part::new(strip).with_hinge(hinge);
+            body = body.with_parts(strips.into_iter().map(flap));
+        } else if i % 9 == 4 {
+            let engine = Thruster::new(Default::default(), na::Vector3::x()).unwrap();
+            body = body.with_thrusters([engine]);
+        }
         immersion.insert(handle, body);
+        immersion.set_deflection(handle, i % 2, 0.1 * (i % 5) as f32);
+        immersion.set_thrust(handle, 0, 1e-3);
         handle
     });
     let handles = handles.collect();

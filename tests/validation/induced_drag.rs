@@ -25,6 +25,8 @@ const ATTACHED: PhysicalLaw = PhysicalLaw {
     rotational_stall_narrow: 0.0,
     munk: 0.0,
     attached_damping: 0.0,
+    roll_damping: 0.0,
+    roll_damping_narrow: 0.0,
     translation_damping: 0.0,
     translation_damping_narrow: 0.0,
     rotation_damping: 0.0,

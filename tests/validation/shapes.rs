@@ -311,11 +311,11 @@ fn a_plate_weighted_in_front_glides() {
     }
 }
 
-/// Let go in most attitudes, the seed takes up a steady spin about the vertical with its wing spread out,
-/// either way round, and comes down several times slower than its nut alone or than itself nose first.
+/// Let go about as it hangs from the tree (the nut at the stalk, the wing down), the seed takes up a steady spin about the vertical with
+/// its wing spread out, either way round, and comes down several times slower than its nut alone or than itself nose first.
 /// To compare: maple samaras (Acer palmatum) were measured to come down at 1.2 m/s and to spin at 131 rad/s
-/// (Lee, Lee & Sohn 2014); the calibration that this was written with gives 0.71 m/s and 125 rad/s from every
-/// release.
+/// (Lee, Lee & Sohn 2014); the calibration that this was written with gives 1.7 m/s and 145 rad/s from seven of eight
+/// releases. (Let go flat, most go on as darts, nut first: one planform at one point has no twist along the wing.)
 #[test]
 fn a_maple_seed_spins_and_falls_slowly() {
     let (body, mass) = samara().unwrap();
@@ -338,9 +338,9 @@ fn a_maple_seed_spins_and_falls_slowly() {
         let angle = f64::from(release) * PI / 4.0;
         let mut free = FreeBody::new(&body, &mass, &Fluid::AIR).unwrap();
         free.set_orientation(UnitQuaternion::from_euler_angles(
-            -FRAC_PI_2 + 0.5 * angle.sin(),
-            0.0,
-            0.5 * angle.cos(),
+            0.3 * angle.cos(),
+            0.3 * angle.sin(),
+            -FRAC_PI_2,
         ));
         let (dt, steps) = (1.0 / 480.0, 2400);
         let (mut spin, mut start, mut cone) = (0.0, 0.0, 0.0);
@@ -365,5 +365,5 @@ fn a_maple_seed_spins_and_falls_slowly() {
         }
     }
     eprintln!("nut {nut:.2} m/s, dive {dive:.2} m/s");
-    assert!(spinning >= 4, "{spinning} of 8");
+    assert!(spinning >= 6, "{spinning} of 8");
 }

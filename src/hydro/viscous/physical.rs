@@ -78,6 +78,9 @@ coefficients! {
         stall_sine: 0.16, NotNegative, search 0.08 to 0.35;
         /// s₁: what is added to it per 1/AR.
         stall_aspect: 0.525, NotNegative, search 0.2 to 0.8;
+        /// s_m: the sine beyond which it does not stall later: rectangular plates of AR 0.5 stall at 40° (Torres & Mueller,
+        /// *AIAA J.* 42, 865 (2004)).
+        stall_limit: 0.65, NotNegative, search 0.6 to 0.75;
         /// δ: width of the stall in sin α.
         stall_width: 0.053, Positive, search 0.03 to 0.25;
         /// k: shift of the stall's sine by the signed pitch rate; of wide plates.
@@ -163,6 +166,7 @@ scalar_struct! {
         stalled_lift: Vector2<T>,
         stall_sine: T,
         stall_aspect: T,
+        stall_limit: T,
         stall_rate: T,
         pitch_stall: Vector2<T>,
         stall_delay: T,
@@ -328,6 +332,7 @@ impl PhysicalLaw {
             ),
             stall_sine: self.stall_sine,
             stall_aspect: self.stall_aspect,
+            stall_limit: self.stall_limit,
             stall_rate: 2.0 / self.stall_width,
             pitch_stall: between(self.pitch_stall, self.pitch_stall_narrow),
             stall_delay: self.stall_delay,
@@ -375,7 +380,7 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let per_span = one / span2.sqrt();
         let chord = constant(4.0) * self.extent_product * per_span;
         let per_aspect = self.area * per_span * per_span;
-        let re = (speed * chord * self.reynolds_scale).max(constant(1e-3));
+        let re = (speed * chord * self.reynolds_scale).max(constant(1e-4));
 
         // Helmbold's loss of lift slope, AR/(2 + √(AR² + 4)), and what follows the aspect ratio with it.
         let tips = per_aspect + per_aspect;
@@ -392,8 +397,8 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let double2 = constant(4.0) * sine_center2 * (one - sine_center2);
         let rate = turning * sine_center * chord * per_speed / (double2 + constant(0.1)).sqrt();
         let shift = (at_aspect(self.pitch_stall) * rate).min(self.stall_delay);
-        let stall_sine =
-            (self.stall_sine + self.stall_aspect * per_aspect + shift).max(constant(0.03));
+        let steady = (self.stall_sine + self.stall_aspect * per_aspect).min(self.stall_limit);
+        let stall_sine = (steady + shift).max(constant(0.03));
         let stall = self.stall_rate * (sine_center.abs() - stall_sine);
         let attached = one / (one + stall.min(constant(60.0)).exp());
 

@@ -85,7 +85,12 @@ fn thesis_law() {
     // The damping of a plate does not depend on what else the default law does.
     let (default, _) = body(ViscousLaw::Physical(PhysicalLaw {
         damping_onset: 0.0,
-        attached_damping: 0.0827,
+        // Stalled at every angle of these states.
+        stall_sine: 0.0,
+        stall_aspect: 0.0,
+        stall_width: 1e-3,
+        pitch_stall: 0.0,
+        pitch_stall_narrow: 0.0,
         translation_damping: 0.0827,
         translation_damping_narrow: 0.0827,
         rotation_damping: 3.41,
