@@ -1,8 +1,12 @@
 //! A windmill: three blades on a hub that turns about the wind's axis.
+//!
+//! The rotor is one body on a revolute joint, which keeps its spin. Rapier by itself takes it away otherwise: blades of their own on
+//! fixed joints lose half of it in 10 s, and a multibody's joint brakes by 0.1 N·m·s unless `Multibody::damping_mut` is set to
+//! zero (`tests/machines/windmill.rs` measures it).
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, RED, Shown, View, drawn};
+use crate::film::{BLUE, GREY, RED, Shown, View, drawn, single};
 use rapier3d_immersed::flow::Uniform;
 use rapier3d_immersed::rapier3d::na::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::prelude::*;
@@ -69,13 +73,6 @@ impl Windmill {
         (0..steps).for_each(|_| self.immersion.step(&mut self.world));
         self.world.bodies[self.rotor].angvel().x.into()
     }
-}
-
-/// In rapier's single precision.
-fn single(place: &Isometry3<f64>) -> Pose {
-    let (t, q) = (&place.translation.vector, place.rotation.coords);
-    let rotation = Rotation::from_xyzw(q.x as f32, q.y as f32, q.z as f32, q.w as f32);
-    Pose::from_parts(Vector::new(t.x as f32, t.y as f32, t.z as f32), rotation)
 }
 
 pub fn show() -> Result<Shown, Failure> {
