@@ -458,17 +458,29 @@ impl<T: Scalar> PolarConstants<T> {
         let span = cross(&forward, &up);
         let g = drag + skew(&(span * (by_speed * lift * factors[1])));
         let n = at(&g, &place.position);
-        // The moment as the torque p × v of an impulse p, whose p × ω takes what it gives.
+        // The moment over the speed; the motion along which it acts is braked by as much power as it gives.
         let torque = span * (by_speed * self.chord * moment * factors[1]);
         let per = speed.constant(1.0) / speed.max(speed.constant(1e-6));
         let along = (forward * ahead + up * rising) * per;
-        let p = skew(&cross(&along, &torque));
+        let e = |i: usize, j: usize| along[i] * torque[j];
+        let braked = Matrix3::new(
+            e(0, 0),
+            e(0, 1),
+            e(0, 2),
+            e(1, 0),
+            e(1, 1),
+            e(1, 2),
+            e(2, 0),
+            e(2, 1),
+            e(2, 2),
+        );
+        let turned = braked.transpose();
         let r = skew(&place.position);
         Blocks {
             m11: n.m11,
-            m12: n.m12 + p,
-            m21: n.m21 + p,
-            m22: n.m22 + product(&r, &p) - product(&p, &r),
+            m12: n.m12 - braked,
+            m21: n.m21 + turned,
+            m22: n.m22 - product(&r, &braked) - product(&turned, &r),
         }
     }
 }
