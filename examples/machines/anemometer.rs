@@ -2,9 +2,9 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREEN, GREY, RED, Shown, View, drawn, single};
+use crate::film::{BLUE, GREEN, GREY, RED, Shown, View, around, drawn, single};
 use rapier3d_immersed::flow::Uniform;
-use rapier3d_immersed::rapier3d::na::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{DragBox, Fluid, HydroProperties, ImmersedBody, Immersion, Part};
 use std::f64::consts::{PI, TAU};
@@ -62,10 +62,8 @@ impl Anemometer {
         )?;
         let mut parts = Vec::new();
         for turn in 0..4 {
-            let around =
-                UnitQuaternion::from_axis_angle(&Vector3::y_axis(), TAU / 4.0 * f64::from(turn));
-            let place =
-                Isometry3::from_parts(Translation3::from(around * Vector3::x() * ARM), around);
+            let middle = Vector3::x() * ARM;
+            let place = around(&Vector3::y_axis(), f64::from(turn) / 4.0, middle);
             parts.push(Part::new(hydro.clone()).at(place).with_law(law));
             let collider = ColliderBuilder::new(cup.clone())
                 .mass(MASSES[0])
@@ -104,7 +102,7 @@ pub fn show() -> Result<Shown, Failure> {
             .map(|i| (0.2 * f64::from(i), rotor.run(0.2) * ARM / f64::from(wind)))
             .collect();
         lines.push(format!("{wind:2} m/s: λ = {:.3}", curve[59].1));
-        let at = (curve[7].0 + 1.4, curve[7].1 - 0.004);
+        let at = (9.0, 0.04 + 0.01 * f64::from(wind));
         let label = Item::Label(at, format!("{wind} m/s"), color);
         curves.items.extend([label, Item::Line(curve, color, 2)]);
     }

@@ -2,11 +2,12 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, RED, Shown, View, drawn, single};
-use rapier3d_immersed::rapier3d::na::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use crate::film::{BLUE, GREY, RED, Shown, View, around, drawn, single};
+use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part, PolarTable};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f32::consts::FRAC_PI_2;
+use std::f64::consts::{PI, TAU};
 
 /// Length, chord and thickness of a blade, m; its wood, kg/m³; its strips.
 pub const LENGTH: f64 = 0.2;
@@ -20,6 +21,8 @@ const AHEAD: f64 = 0.022;
 /// Height of the blades' camber over their chord, and their drag without lift.
 const CAMBER: f64 = 0.05;
 const FRICTION: f64 = 0.02;
+/// Where it is thrown from, m.
+pub const HAND: Vector = Vector::new(0.0, 1.7, 0.0);
 
 pub struct Boomerang {
     pub world: PhysicsWorld,
@@ -28,7 +31,6 @@ pub struct Boomerang {
 }
 
 /// How it is thrown: speed, m/s; spin, rad/s; lean of its plane to the side to which it curves, and climb of its path, rad.
-#[derive(Clone, Copy)]
 pub struct Throw {
     pub speed: f32,
     pub spin: f32,
@@ -44,14 +46,11 @@ pub fn section(angle: f64) -> [f64; 2] {
     let slope = TAU * aspect / (2.0 + (aspect * aspect + 4.0).sqrt());
     let (sine, cosine) = angle.sin_cos();
     let lift = slope * (sine + 2.0 * CAMBER);
-    let attached = [
-        lift * cosine.signum(),
-        FRICTION + lift * lift / (PI * aspect),
-    ];
+    let drag = FRICTION + lift * lift / (PI * aspect);
+    let attached = [lift * cosine.signum(), drag];
     let normal = 1.98 * sine / (0.56 + 0.44 * sine.abs());
     let plate = [normal * cosine, normal * sine + FRICTION];
-    let off = sine.abs().asin().to_degrees();
-    let stalled = ((off - 12.0) / 13.0).clamp(0.0, 1.0);
+    let stalled = ((sine.abs().asin().to_degrees() - 12.0) / 13.0).clamp(0.0, 1.0);
     [0, 1].map(|i| attached[i] + stalled * (plate[i] - attached[i]))
 }
 
@@ -64,11 +63,10 @@ impl Boomerang {
         let mut world = PhysicsWorld::new();
         world.integration_parameters.dt = 1.0 / hz;
         // Its axle, y of the body, points to −z, and up by the lean.
-        let upright = Rotation::from_axis_angle(Vector::X, throw.lean - FRAC_PI_2 as f32);
         let climbing = Rotation::from_axis_angle(Vector::Z, throw.climb);
-        let attitude = climbing * upright;
+        let attitude = climbing * Rotation::from_axis_angle(Vector::X, throw.lean - FRAC_PI_2);
         let thrown = RigidBodyBuilder::dynamic()
-            .pose(Pose::from_parts(Vector::Y * 1.7, attitude))
+            .pose(Pose::from_parts(HAND, attitude))
             .linvel(climbing * Vector::X * throw.speed)
             .angvel(attitude * Vector::Y * throw.spin);
         let boomerang = world.insert_body(thrown);
@@ -83,12 +81,10 @@ impl Boomerang {
         let strips = HydroProperties::strips_of_shape(blade.as_ref(), STRIPS)?;
         let mut parts = Vec::new();
         for turn in 0..4 {
-            let around =
-                UnitQuaternion::from_axis_angle(&Vector3::y_axis(), TAU / 4.0 * f64::from(turn));
-            let middle = around * Vector3::new(0.5 * LENGTH, 0.0, -AHEAD);
-            let place = Isometry3::from_parts(Translation3::from(middle), around);
-            let strips = strips.iter().cloned();
-            parts.extend(strips.map(|strip| Part::new(strip).at(place).with_law(table.clone())));
+            let middle = Vector3::new(0.5 * LENGTH, 0.0, -AHEAD);
+            let place = around(&Vector3::y_axis(), f64::from(turn) / 4.0, middle);
+            let strips = strips.iter().cloned().map(Part::new);
+            parts.extend(strips.map(|strip| strip.at(place).with_law(table.clone())));
             let collider = ColliderBuilder::new(blade.clone()).density(DENSITY);
             world.insert_collider(collider.position(single(&place)), Some(boomerang));
         }
@@ -102,17 +98,12 @@ impl Boomerang {
         })
     }
 
-    /// Where it is: at first, the hand.
-    pub fn hand(&self) -> Vector {
-        self.world.bodies[self.boomerang].translation()
-    }
-
     /// Where it is after each step of so many seconds.
     pub fn path(&mut self, seconds: f32) -> Vec<Vector> {
         let steps = (seconds / self.world.integration_parameters.dt) as usize;
         let each = |_| {
             self.immersion.step(&mut self.world);
-            self.hand()
+            self.world.bodies[self.boomerang].translation()
         };
         (0..steps).map(each).collect()
     }
@@ -132,23 +123,22 @@ pub fn show() -> Result<Shown, Failure> {
         Panel::new("from the side", "x, m", "y, m").equal(),
     ];
     let mut boomerang = Boomerang::new(RETURNING, 480.0)?;
-    let mut path = vec![boomerang.hand()];
-    let views = [View::ABOVE, View::SIDE];
+    let mut path = vec![HAND];
     for _ in 0..15 {
-        for (panel, view) in panels.iter_mut().zip(views) {
+        for (panel, view) in panels.iter_mut().zip([View::ABOVE, View::SIDE]) {
             let outlines = drawn(&boomerang.world, &[boomerang.boomerang], view, BLUE);
             panel.items.extend(outlines);
         }
         path.extend(boomerang.path(0.1));
     }
-    for (panel, view) in panels.iter_mut().zip(views) {
+    for (panel, view) in panels.iter_mut().zip([View::ABOVE, View::SIDE]) {
         let line = path.iter().map(|p| view.of(*p)).collect();
         panel.items.push(Item::Line(line, GREY, 1));
-        panel.items.push(Item::Dots(vec![view.of(path[0])], RED, 4));
+        panel.items.push(Item::Dots(vec![view.of(HAND)], RED, 4));
     }
-    let away: Vec<f32> = path.iter().map(|p| (*p - path[0]).length()).collect();
-    let far = away.iter().copied().fold(0.0, f32::max);
-    let near = away[away.len() / 2..].iter().copied().fold(far, f32::min);
+    let away: Vec<f32> = path.iter().map(|p| (*p - HAND).length()).collect();
+    let far = away.iter().fold(0f32, |a, b| a.max(*b));
+    let near = away[path.len() / 2..].iter().fold(far, |a, b| a.min(*b));
     Ok(Shown {
         title: "A boomerang of four blades, thrown at 18 m/s from the red dot".into(),
         panels,

@@ -4,7 +4,9 @@ use crate::Failure;
 use crate::draw::{self, Item, Panel, Point};
 use plotters::style::RGBColor;
 use rapier3d_immersed::geometry::Surface;
-use rapier3d_immersed::rapier3d::na::Isometry3;
+use rapier3d_immersed::rapier3d::na::{
+    Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3,
+};
 use rapier3d_immersed::rapier3d::prelude::*;
 use std::path::Path;
 
@@ -90,6 +92,12 @@ pub fn enlarged(
     let outlines = outlines(world, body, view).into_iter();
     let large = outlines.map(|line| line.into_iter().map(large).collect());
     large.map(|line| Item::Line(line, color, 1)).collect()
+}
+
+/// A place, turned by so many whole turns about an axis through the origin.
+pub fn around(axis: &UnitVector3<f64>, turns: f64, place: Vector3<f64>) -> Isometry3<f64> {
+    let turned = UnitQuaternion::from_axis_angle(axis, std::f64::consts::TAU * turns);
+    Isometry3::from_parts(Translation3::from(turned * place), turned)
 }
 
 /// In rapier's single precision.

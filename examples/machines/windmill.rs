@@ -6,12 +6,12 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, RED, Shown, View, drawn, single};
+use crate::film::{BLUE, GREY, RED, Shown, View, around, drawn, single};
 use rapier3d_immersed::flow::Uniform;
-use rapier3d_immersed::rapier3d::na::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// Half length and half chord of a blade, where its middle is, m; the wind along x, m/s.
 pub const HALF_LENGTH: f64 = 0.2;
@@ -40,13 +40,9 @@ impl Windmill {
         let blade = SharedShape::cuboid(0.0008, HALF_LENGTH as f32, HALF_CHORD as f32);
         let mut parts = Vec::new();
         for turn in 0..3 {
-            let around =
-                UnitQuaternion::from_axis_angle(&Vector3::x_axis(), TAU / 3.0 * f64::from(turn));
             let pitched = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), pitch);
-            let place = Isometry3::from_parts(
-                Translation3::from(around * Vector3::y() * MIDDLE),
-                around * pitched,
-            );
+            let middle = Vector3::y() * MIDDLE;
+            let place = around(&Vector3::x_axis(), f64::from(turn) / 3.0, middle) * pitched;
             let strips = HydroProperties::strips_of_shape(blade.as_ref(), strips)?;
             parts.extend(strips.into_iter().map(|strip| Part::new(strip).at(place)));
             let collider = ColliderBuilder::new(blade.clone())

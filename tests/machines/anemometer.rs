@@ -34,7 +34,7 @@ fn free_running() -> f64 {
     low
 }
 
-/// Tip speed over wind is one number for all winds, that of the quasi-steady drag of its cups, to 1 %: a rotor of some inertia
+/// Tip speed over wind is one number for all winds, that of the quasi-steady drag of its cups, to 0.5 %: a rotor of some inertia
 /// keeps its speed over a turn, as the integral assumes.
 #[test]
 fn turns_in_proportion_to_the_wind() {
@@ -44,9 +44,8 @@ fn turns_in_proportion_to_the_wind() {
             let mut rotor = must(Anemometer::new(wind, hz));
             rotor.run(60.0 / wind);
             let lambda = rotor.run(20.0 / wind) * ARM / f64::from(wind);
-            println!("{wind} m/s, {hz} Hz: λ {lambda:.4}; integrated {exact:.4}");
             assert!(
-                (lambda / exact - 1.0).abs() < 0.01,
+                (lambda / exact - 1.0).abs() < 0.005,
                 "{wind}, {hz}: {lambda} {exact}"
             );
         }

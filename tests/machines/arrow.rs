@@ -15,7 +15,6 @@ fn weathervane(arrow: &Arrow) -> f64 {
     let arm = mass.center.x + 0.5 * length - 0.75 * chord;
     let pressure = 0.5 * f64::from(arrow.immersion.fluid().density()) * speed * speed;
     let stiffness = pressure * span * chord * arm * helmbold(span / chord);
-    println!("I {inertia:.3e} kg·m², l {arm:.3} m");
     (stiffness / inertia).sqrt() / TAU
 }
 
@@ -29,7 +28,6 @@ fn swings_as_a_weathervane() {
         let expected = weathervane(&arrow);
         let (frequency, decay) = oscillation(&arrow.curve(2.0));
         let frequency = frequency / TAU;
-        println!("{hz} Hz: {frequency:.3} Hz, decay {decay:.2}/s; formula {expected:.3} Hz");
         assert!(
             (frequency / expected - 1.0).abs() < 0.03,
             "{frequency} {expected}"
@@ -45,7 +43,6 @@ fn flies_straight_after_a_second() {
         let curve = arrow.curve(1.5);
         let late = curve.iter().filter(|(t, _)| *t > 1.0);
         let worst = late.map(|(_, a)| a.abs().to_degrees()).fold(0.0, f64::max);
-        println!("{hz} Hz: {worst:.2}°");
         assert!(worst < 2.0, "{worst}");
     }
 }

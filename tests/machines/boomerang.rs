@@ -1,6 +1,6 @@
 //! The boomerang's circle.
 
-use crate::boomerang::{Boomerang, CHORD, LENGTH, RETURNING, Throw, section};
+use crate::boomerang::{Boomerang, CHORD, HAND, LENGTH, RETURNING, Throw, section};
 use crate::must;
 use rapier3d_immersed::rapier3d::prelude::*;
 
@@ -25,11 +25,6 @@ fn circle() -> Circle {
     let lift = 2.0 * density * section(0.0)[0] * c;
     let radius = 3.0 * mass.inertia[(1, 1)] / (lift * a.powi(3));
     let spin_over_speed = ((mass.mass / (radius * lift) - 0.5 * a) * 3.0 / a.powi(3)).sqrt();
-    println!(
-        "m {:.4} kg, I {:.3e} kg·m², R {radius:.2} m, ω/V {spin_over_speed:.2}/m",
-        mass.mass,
-        mass.inertia[(1, 1)]
-    );
     Circle {
         radius,
         spin_over_speed,
@@ -54,23 +49,18 @@ fn flies_a_circle() {
                 hz,
             ));
             boomerang.world.gravity = Vector::ZERO;
-            let start = boomerang.hand();
             // Back beside the hand when it flies the other way.
-            let mut before = start;
+            let mut before = HAND;
             let mut gone = 0.0;
             let across = loop {
                 let now = *boomerang.path(1.0 / hz).last().unwrap();
                 gone += 1.0 / hz;
                 if gone > 0.5 && now.z > before.z || gone > 5.0 {
-                    break now - start;
+                    break now - HAND;
                 }
                 before = now;
             };
             let radius = 0.5 * f64::from(across.length());
-            println!(
-                "{speed} m/s, {hz} Hz: R {radius:.2} m after {gone:.2} s; {:.2}",
-                circle.radius
-            );
             assert!((radius / circle.radius - 1.0).abs() < 0.1, "{radius}");
         }
     }
@@ -94,17 +84,13 @@ fn comes_back() {
                 ..RETURNING
             };
             let mut boomerang = must(Boomerang::new(throw, hz));
-            let hand = boomerang.hand();
             let path = boomerang.path(2.0);
-            let away: Vec<f32> = path.iter().map(|p| (*p - hand).length()).collect();
+            let away: Vec<f32> = path.iter().map(|p| (*p - HAND).length()).collect();
             let far = away.iter().copied().fold(0.0, f32::max);
             let turn = away.iter().position(|d| *d == far).unwrap();
             let (near, height) = (turn..path.len())
                 .map(|i| (away[i], path[i].y))
                 .fold((f32::INFINITY, 0.0), |a, b| if b.0 < a.0 { b } else { a });
-            println!(
-                "{hz} Hz, {lean:+} rad, {spin:+} rad/s: {far:.1} m, back to {near:.2} m, {height:.2} m high"
-            );
             assert!(
                 far > 6.0 && near < 1.5 && height > 0.0,
                 "{far} {near} {height}"

@@ -30,7 +30,6 @@ fn precesses_by_its_pitching_moment() {
                 frisbee.step();
             }
             let turned = frisbee.up() - before;
-            println!("{hz} Hz, {spin} rad/s: {turned} against {expected}");
             assert!(
                 (turned - expected).length() < 0.05 * expected.length(),
                 "{turned} {expected}"
@@ -56,9 +55,6 @@ fn spin_keeps_it_flying() {
         };
         let (far, tilted) = fly(60.0);
         let (near, over) = fly(0.0);
-        println!(
-            "{hz} Hz: {far:.1} m, tilted by {tilted:.0}°; without spin {near:.1} m, {over:.0}°"
-        );
         assert!(tilted < 30.0 && over > 90.0, "{tilted} {over}");
         assert!(far > 2.0 * near, "{far} {near}");
     }

@@ -73,6 +73,7 @@ fn oscillation(curve: &[(f64, f64)]) -> (f64, f64) {
     (damped.hypot(decay), decay)
 }
 
+/// What the description of a machine gives, or its problem.
 fn must<T>(made: Result<T, Failure>) -> T {
     made.unwrap_or_else(|problem| panic!("{problem}"))
 }

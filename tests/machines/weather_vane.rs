@@ -17,7 +17,6 @@ fn weathervane(vane: &WeatherVane) -> f64 {
     let inertia = motion.dot(&(matrix * motion));
     let arm = behind - 0.25 * chord;
     let pressure = 0.5 * f64::from(vane.immersion.fluid().density()) * wind * wind;
-    println!("I {inertia:.3e} kg·m²");
     (pressure * height * chord * arm * helmbold(height / chord) / inertia).sqrt() / TAU
 }
 
@@ -31,7 +30,6 @@ fn swings_as_a_weathervane() {
         let expected = weathervane(&vane);
         let (frequency, decay) = oscillation(&vane.curve(3.0));
         let frequency = frequency / TAU;
-        println!("{hz} Hz: {frequency:.3} Hz, decay {decay:.2}/s; formula {expected:.3} Hz");
         assert!(
             (frequency / expected - 1.0).abs() < 0.03,
             "{frequency} {expected}"
@@ -47,7 +45,6 @@ fn turns_into_the_wind() {
             let mut vane = must(WeatherVane::new((degrees as f32).to_radians(), hz));
             vane.curve(6.0);
             let end = vane.angle().to_degrees();
-            println!("{hz} Hz: {degrees}° → {end:.3}°");
             assert!(end.abs() < 0.5, "{degrees}: {end}");
         }
     }

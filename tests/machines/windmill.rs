@@ -9,7 +9,7 @@ use std::f32::consts::TAU;
 
 const ELEMENTS: usize = 1000;
 const PITCH: f64 = 20.0;
-/// By which the mill runs at its final speed, s.
+/// By then the mill runs at its final speed, s.
 const LONG: f32 = 15.0;
 
 /// Torque of one blade about the axle, N·m, at an angular velocity: a thousand elements in steady flow, each the
@@ -60,21 +60,19 @@ fn speed(degrees: f64, strips: usize, hz: f32) -> f64 {
     must(Windmill::new(degrees.to_radians(), strips, hz)).run(LONG)
 }
 
-/// The speed at which the blade's own polar, integrated along it, gives no torque about the axle: within 5 % from 4 strips on
-/// (a strip takes the flow of its middle for that of its length) to 48, at 240 and at 60 Hz, which agree within 5 %.
+/// The speed at which the blade's own polar, integrated along it, gives no torque about the axle, 45.6 rad/s: within 2 % from 4 strips on
+/// (a strip takes the flow of its middle for that of its length) to 48, at 240 and at 60 Hz, which agree within 1 %.
+/// Strips have 1 % less than the elements: the law adds induced drag for a spin about the chord, too.
 #[test]
 fn runs_as_blade_elements_say() {
     let exact = free_running(-PITCH.to_radians());
     for strips in [4, 12, 48] {
         let [slow, fast] = [60.0, 240.0].map(|hz| speed(-PITCH, strips, hz));
-        println!(
-            "{strips} strips: {slow:.2} rad/s at 60 Hz, {fast:.2} at 240 Hz; elements {exact:.2}"
-        );
         assert!(
-            (fast / exact - 1.0).abs() < 0.05,
+            (fast / exact - 1.0).abs() < 0.02,
             "{strips}: {fast} {exact}"
         );
-        assert!((slow / fast - 1.0).abs() < 0.05, "{strips}: {slow} {fast}");
+        assert!((slow / fast - 1.0).abs() < 0.01, "{strips}: {slow} {fast}");
     }
 }
 
@@ -86,7 +84,6 @@ fn turns_by_its_pitch_alone() {
         speed(-PITCH, 6, 240.0),
         speed(0.0, 6, 240.0),
     );
-    println!("{one} {other} {none}");
     assert!((one + other).abs() < 1e-3 * one.abs(), "{one} {other}");
     assert!(none.abs() < 1e-2, "{none}");
 }
@@ -180,7 +177,6 @@ fn rapier_keeps_the_spin_of_one_body() {
                 iterations,
             };
             let kept = kept(rotor, hz);
-            println!("{rotor:?} {hz} Hz: {kept:.4}");
             assert!((least..most).contains(&kept), "{rotor:?}, {hz}: {kept}");
         }
     }
