@@ -4,6 +4,9 @@ use crate::Failure;
 use crate::draw::{self, Item, Panel, Point};
 use plotters::style::RGBColor;
 use rapier3d_immersed::geometry::Surface;
+use rapier3d_immersed::rapier3d::na::{
+    Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3,
+};
 use rapier3d_immersed::rapier3d::prelude::*;
 use std::path::Path;
 
@@ -73,6 +76,35 @@ pub fn drawn(
 ) -> Vec<Item> {
     let outlines = bodies.iter().flat_map(|body| outlines(world, *body, view));
     outlines.map(|line| Item::Line(line, color, 1)).collect()
+}
+
+/// The outlines of one body so many times as large about its position, at another place of the panel or its own.
+pub fn enlarged(
+    world: &PhysicsWorld,
+    body: RigidBodyHandle,
+    view: View,
+    color: RGBColor,
+    (scale, place): (f64, Option<Point>),
+) -> Vec<Item> {
+    let own = view.of(world.bodies[body].translation());
+    let to = place.unwrap_or(own);
+    let large = |p: Point| (to.0 + scale * (p.0 - own.0), to.1 + scale * (p.1 - own.1));
+    let outlines = outlines(world, body, view).into_iter();
+    let large = outlines.map(|line| line.into_iter().map(large).collect());
+    large.map(|line| Item::Line(line, color, 1)).collect()
+}
+
+/// A place, turned by so many whole turns about an axis through the origin.
+pub fn around(axis: &UnitVector3<f64>, turns: f64, place: Vector3<f64>) -> Isometry3<f64> {
+    let turned = UnitQuaternion::from_axis_angle(axis, std::f64::consts::TAU * turns);
+    Isometry3::from_parts(Translation3::from(turned * place), turned)
+}
+
+/// In rapier's single precision.
+pub fn single(place: &Isometry3<f64>) -> Pose {
+    let (t, q) = (&place.translation.vector, place.rotation.coords);
+    let rotation = Rotation::from_xyzw(q.x as f32, q.y as f32, q.z as f32, q.w as f32);
+    Pose::from_parts(Vector::new(t.x as f32, t.y as f32, t.z as f32), rotation)
 }
 
 /// The convex hull of points, closed: Andrew's monotone chain.

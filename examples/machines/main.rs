@@ -8,9 +8,16 @@
 //! Each writes `out/machines/NAME.svg` and prints what it did beside what it should do. Each is one file here, of the
 //! body and its parts first.
 
+mod anemometer;
+mod arrow;
+mod boomerang;
 #[path = "../support/draw.rs"]
+#[allow(dead_code, reason = "shared with other examples")]
 mod draw;
 mod film;
+mod frisbee;
+mod shuttlecock;
+mod weather_vane;
 mod windmill;
 
 use film::Shown;
@@ -22,11 +29,43 @@ type Failure = Box<dyn std::error::Error>;
 /// A machine: its name, what it is, and its run.
 type Machine = (&'static str, &'static str, fn() -> Result<Shown, Failure>);
 
-const MACHINES: &[Machine] = &[(
-    "windmill",
-    "three blades of strips on a hub, free to turn",
-    windmill::show,
-)];
+const MACHINES: &[Machine] = &[
+    (
+        "windmill",
+        "three blades of strips on a hub, free to turn",
+        windmill::show,
+    ),
+    (
+        "anemometer",
+        "four cups on arms about a vertical axle",
+        anemometer::show,
+    ),
+    (
+        "weather_vane",
+        "a tail fin on a rod that turns into the wind",
+        weather_vane::show,
+    ),
+    (
+        "arrow",
+        "a heavy point and crossed fins, let go askew",
+        arrow::show,
+    ),
+    (
+        "shuttlecock",
+        "a cork and sixteen feathers, thrown tail first",
+        shuttlecock::show,
+    ),
+    (
+        "frisbee",
+        "a disc under published coefficients, with and without spin",
+        frisbee::show,
+    ),
+    (
+        "boomerang",
+        "four cambered blades of strips that come back",
+        boomerang::show,
+    ),
+];
 
 fn main() -> ExitCode {
     let wanted = std::env::args().nth(1).unwrap_or_default();

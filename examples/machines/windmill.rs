@@ -1,13 +1,17 @@
 //! A windmill: three blades on a hub that turns about the wind's axis.
+//!
+//! The rotor is one body on a revolute joint, which keeps its spin. Rapier by itself takes it away otherwise: blades of their own on
+//! fixed joints lose half of it in 10 s, and a multibody's joint brakes by 0.1 N·m·s unless `Multibody::damping_mut` is set to
+//! zero (`tests/machines/windmill.rs` measures it).
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, RED, Shown, View, drawn};
+use crate::film::{BLUE, GREY, RED, Shown, View, around, drawn, single};
 use rapier3d_immersed::flow::Uniform;
-use rapier3d_immersed::rapier3d::na::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// Half length and half chord of a blade, where its middle is, m; the wind along x, m/s.
 pub const HALF_LENGTH: f64 = 0.2;
@@ -36,13 +40,9 @@ impl Windmill {
         let blade = SharedShape::cuboid(0.0008, HALF_LENGTH as f32, HALF_CHORD as f32);
         let mut parts = Vec::new();
         for turn in 0..3 {
-            let around =
-                UnitQuaternion::from_axis_angle(&Vector3::x_axis(), TAU / 3.0 * f64::from(turn));
             let pitched = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), pitch);
-            let place = Isometry3::from_parts(
-                Translation3::from(around * Vector3::y() * MIDDLE),
-                around * pitched,
-            );
+            let middle = Vector3::y() * MIDDLE;
+            let place = around(&Vector3::x_axis(), f64::from(turn) / 3.0, middle) * pitched;
             let strips = HydroProperties::strips_of_shape(blade.as_ref(), strips)?;
             parts.extend(strips.into_iter().map(|strip| Part::new(strip).at(place)));
             let collider = ColliderBuilder::new(blade.clone())
@@ -69,13 +69,6 @@ impl Windmill {
         (0..steps).for_each(|_| self.immersion.step(&mut self.world));
         self.world.bodies[self.rotor].angvel().x.into()
     }
-}
-
-/// In rapier's single precision.
-fn single(place: &Isometry3<f64>) -> Pose {
-    let (t, q) = (&place.translation.vector, place.rotation.coords);
-    let rotation = Rotation::from_xyzw(q.x as f32, q.y as f32, q.z as f32, q.w as f32);
-    Pose::from_parts(Vector::new(t.x as f32, t.y as f32, t.z as f32), rotation)
 }
 
 pub fn show() -> Result<Shown, Failure> {

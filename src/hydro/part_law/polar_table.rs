@@ -9,6 +9,8 @@ use std::sync::Arc;
 
 /// Angles of the table that a step reads: one per degree, both ends.
 const ANGLES: usize = 361;
+/// Degrees over which a table's end passes to the plate that continues it.
+const BLEND: f64 = 15.0;
 
 /// Coefficients at one angle of attack.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,8 +37,8 @@ pub struct PolarRow {
 /// fluid in the plane of the two, the moment is that times the chord. What moves along the span is not felt.
 ///
 /// Between its angles a table is linear. One that does not reach ±180° is continued by a flat plate's
-/// forces, `C_N = 1.98 sin|α|/(0.56 + 0.44 sin|α|)` along the normal (Hoerner, *Fluid-Dynamic Drag*, 3-16, in two dimensions), and C_M → −C_N/4
-/// about the quarter chord, over 15° from its ends.
+/// forces, `C_N = 1.98 sin|α|/(0.56 + 0.44 sin|α|)` along the normal (Hoerner, *Fluid-Dynamic Drag*, 3-16, in two dimensions), in the middle of the
+/// chord, over 15° from its ends.
 ///
 /// As text, one row per line: `angle, C_L, C_D[, C_M]`, in degrees, `#` before comments; `re = 100000` on a line of its own
 /// begins the table of another Reynolds number.
@@ -65,12 +67,30 @@ pub struct PolarRow {
 )]
 pub struct PolarTable {
     /// Reynolds numbers (on the chord), rising, and the rows of each, one per degree from −180°.
-    tables: Arc<Vec<(f64, Vec<PolarRow>)>>,
-    /// Forward and upper directions in the part's frame; `None`: across the longest axis of its planform.
-    axes: Option<[Vector3<f64>; 2]>,
+    tables: Arc<Vec<(f64, Vec<Row>)>>,
+    facing: Facing,
     /// The point that C_M refers to, in chords ahead of the planform's center.
     reference: f64,
 }
+
+/// Where the leading edge of a section is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+enum Facing {
+    /// Along the shorter axis of the planform, the upper side along its normal.
+    Planform,
+    /// Forward and upper directions in the part's frame.
+    Axes([Vector3<f64>; 2]),
+    /// Wherever a body of revolution about this direction moves.
+    Round(Vector3<f64>),
+}
+
+/// What a table is at one degree: C_L, C_D, C_M, and how much of C_L and C_D is the normal force of the plate that
+/// continues the table, whose moment depends on the reference point.
+type Row = [f64; 4];
 
 impl PolarTable {
     /// A table for all Reynolds numbers. `rows` need not be sorted.
@@ -94,7 +114,7 @@ impl PolarTable {
             enough,
             "at least 1",
         )?;
-        let mut known: Vec<(f64, Vec<PolarRow>)> = Vec::new();
+        let mut known: Vec<(f64, Vec<Row>)> = Vec::new();
         for (re, rows) in tables {
             Error::check_positive("Reynolds number of a polar table", *re)?;
             let rises = known.last().is_none_or(|(before, _)| before < re);
@@ -108,7 +128,7 @@ impl PolarTable {
         }
         Ok(Self {
             tables: Arc::new(known),
-            axes: None,
+            facing: Facing::Planform,
             reference: 0.25,
         })
     }
@@ -197,8 +217,34 @@ impl PolarTable {
         Error::check_range("reference point of a polar", reference, -1.0, 1.0)?;
         let up = (up - forward * cosine).normalize();
         Ok(Self {
-            axes: Some([forward, up]),
+            facing: Facing::Axes([forward, up]),
             reference,
+            ..self
+        })
+    }
+
+    /// The same table for a body of revolution about `up`, in the part's frame: it faces wherever it moves, however
+    /// it spins. Angles of attack are those from −90° to 90°; moments refer to the planform's center, and the chord is the
+    /// diameter.
+    ///
+    /// ```
+    /// use rapier3d_immersed::PolarTable;
+    /// use rapier3d_immersed::rapier3d::na::Vector3;
+    ///
+    /// let disc = PolarTable::from_csv("-90, 0, 1.1\n0, 0, 0.02\n90, 0, 1.1")?;
+    /// let disc = disc.with_revolution(Vector3::y())?;
+    /// # drop(disc);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], or [`Error::InvalidParameter`] if the direction is of no length.
+    pub fn with_revolution(self, up: Vector3<f64>) -> Result<Self, Error> {
+        Error::check_all_finite("upper direction of a polar", up.as_slice())?;
+        Error::check_positive("length of the upper direction of a polar", up.norm())?;
+        Ok(Self {
+            facing: Facing::Round(up.normalize()),
+            reference: 0.0,
             ..self
         })
     }
@@ -220,12 +266,9 @@ impl PolarTable {
         let of = |table: usize| {
             let rows = &self.tables[table].1;
             let (a, b) = (&rows[index], &rows[(index + 1).min(ANGLES - 1)]);
-            let mix = |a: f64, b: f64| a + share * (b - a);
-            [
-                mix(a.lift, b.lift),
-                mix(a.drag, b.drag),
-                mix(a.moment, b.moment),
-            ]
+            let mix = |i: usize| a[i] + share * (b[i] - a[i]);
+            // The plate's force is in its middle.
+            [mix(0), mix(1), mix(2) - self.reference * mix(3)]
         };
         let above = self.tables.partition_point(|(re, _)| re.ln() < log_re);
         if above == 0 || above == self.tables.len() {
@@ -239,7 +282,7 @@ impl PolarTable {
 }
 
 /// One row per degree over the whole circle.
-fn whole_circle(rows: &[PolarRow]) -> Result<Vec<PolarRow>, Error> {
+fn whole_circle(rows: &[PolarRow]) -> Result<Vec<Row>, Error> {
     let enough = rows.len() >= 2;
     Error::check(
         "number of rows of a polar table",
@@ -272,59 +315,32 @@ fn whole_circle(rows: &[PolarRow]) -> Result<Vec<PolarRow>, Error> {
             90.0,
         )?;
     }
-    let (first, last) = (sorted[0], sorted[sorted.len() - 1]);
+    let known = |row: &PolarRow| [row.lift, row.drag, row.moment, 0.0];
     let plate = |angle: f64| {
-        let sine = angle.to_radians().sin();
+        let (sine, cosine) = angle.to_radians().sin_cos();
         let normal = 1.98 * sine / (0.56 + 0.44 * sine.abs());
-        let cosine = angle.to_radians().cos();
-        PolarRow {
-            angle,
-            lift: normal * cosine,
-            drag: normal * sine + 0.02,
-            // Of the force in the middle of the plate, a quarter of the chord behind the reference; going backward the
-            // middle is as far ahead of the trailing quarter.
-            moment: -0.25 * normal,
-        }
+        [normal * cosine, normal * sine + 0.02, 0.0, normal]
     };
-    let inside = |angle: f64| {
+    let row = |degree: i32| {
+        let angle = f64::from(degree);
         let above = sorted
             .partition_point(|row| row.angle < angle)
             .clamp(1, sorted.len() - 1);
         let (a, b) = (&sorted[above - 1], &sorted[above]);
-        let share = (angle - a.angle) / (b.angle - a.angle);
-        mixed(angle, a, b, share)
-    };
-    let row = |degree: i32| {
-        let angle = f64::from(degree);
-        if angle < first.angle {
-            mixed(
-                angle,
-                &first,
-                &plate(angle),
-                ((first.angle - angle) / 15.0).min(1.0),
-            )
-        } else if angle > last.angle {
-            mixed(
-                angle,
-                &last,
-                &plate(angle),
-                ((angle - last.angle) / 15.0).min(1.0),
-            )
+        let outside = (a.angle - angle).max(angle - b.angle);
+        if outside > 0.0 {
+            let end = if angle < a.angle { a } else { b };
+            mixed(known(end), plate(angle), (outside / BLEND).min(1.0))
         } else {
-            inside(angle)
+            let share = (angle - a.angle) / (b.angle - a.angle);
+            mixed(known(a), known(b), share)
         }
     };
     Ok((-180..=180).map(row).collect())
 }
 
-fn mixed(angle: f64, a: &PolarRow, b: &PolarRow, share: f64) -> PolarRow {
-    let mix = |a: f64, b: f64| a + share * (b - a);
-    PolarRow {
-        angle,
-        lift: mix(a.lift, b.lift),
-        drag: mix(a.drag, b.drag),
-        moment: mix(a.moment, b.moment),
-    }
+fn mixed(a: Row, b: Row, share: f64) -> Row {
+    [0, 1, 2, 3].map(|i| a[i] + share * (b[i] - a[i]))
 }
 
 scalar_struct! {
@@ -361,9 +377,12 @@ impl PolarConstants<f64> {
         mass: f64,
         length: f64,
     ) -> Self {
-        let [forward, up] = table.axes.map_or([Vector3::y(), Vector3::z()], |axes| {
-            axes.map(|a| to_plate * a)
-        });
+        let [forward, up] = match table.facing {
+            Facing::Planform => [Vector3::y(), Vector3::z()],
+            Facing::Axes(axes) => axes.map(|a| to_plate * a),
+            // Forward is known when it moves.
+            Facing::Round(up) => [Vector3::zeros(), to_plate * up],
+        };
         Self {
             forward,
             up,
@@ -392,9 +411,18 @@ impl<T: Scalar> PolarConstants<T> {
         v: &Twist<T>,
         factors: [T; 2],
     ) -> Blocks<T> {
-        let (forward, up) = (place.out(&self.forward), place.out(&self.up));
+        let up = place.out(&self.up);
         let u = velocity_at(v, &place.position);
-        let (ahead, rising) = (dot(&u, &forward), dot(&u, &up));
+        let rising = dot(&u, &up);
+        let round = matches!(table.facing, Facing::Round(_));
+        let forward = if round {
+            let along = u - up * rising;
+            let speed = dot(&along, &along).sqrt();
+            along * (speed.constant(1.0) / speed.max(speed.constant(1e-6)))
+        } else {
+            place.out(&self.forward)
+        };
+        let ahead = dot(&u, &forward);
         let speed2 = ahead * ahead + rising * rising;
         let speed = speed2.sqrt();
         let [lift, drag, moment] = T::by_lane([ahead, rising, speed * self.reynolds_scale], |v| {
@@ -404,33 +432,55 @@ impl<T: Scalar> PolarConstants<T> {
         let by_speed = self.dynamic_area * speed;
         // Drag on both directions of the plane, lift that turns from forward to up.
         let resistance = by_speed * drag * factors[0];
-        let outer = |a: &Vector3<T>, i: usize, j: usize| a[i] * a[j];
-        let plane = |i: usize, j: usize| -(outer(&forward, i, j) + outer(&up, i, j)) * resistance;
-        let (xy, xz, yz) = (plane(0, 1), plane(0, 2), plane(1, 2));
+        let zero = speed.constant(0.0);
+        let entry = |i: usize, j: usize| {
+            if !round {
+                -(forward[i] * forward[j] + up[i] * up[j]) * resistance
+            } else if i == j {
+                // A body of revolution also resists what turns its motion aside within the step.
+                -resistance
+            } else {
+                zero
+            }
+        };
+        let (xy, xz, yz) = (entry(0, 1), entry(0, 2), entry(1, 2));
+        let drag = Matrix3::new(
+            entry(0, 0),
+            xy,
+            xz,
+            xy,
+            entry(1, 1),
+            yz,
+            xz,
+            yz,
+            entry(2, 2),
+        );
         let span = cross(&forward, &up);
-        let g = Matrix3::new(
-            plane(0, 0),
-            xy,
-            xz,
-            xy,
-            plane(1, 1),
-            yz,
-            xz,
-            yz,
-            plane(2, 2),
-        ) + skew(&(span * (by_speed * lift * factors[1])));
+        let g = drag + skew(&(span * (by_speed * lift * factors[1])));
         let n = at(&g, &place.position);
-        // The moment as the torque p × v of an impulse p, whose p × ω takes what it gives.
+        // The moment over the speed; the motion along which it acts is braked by as much power as it gives.
         let torque = span * (by_speed * self.chord * moment * factors[1]);
         let per = speed.constant(1.0) / speed.max(speed.constant(1e-6));
         let along = (forward * ahead + up * rising) * per;
-        let p = skew(&cross(&along, &torque));
+        let e = |i: usize, j: usize| along[i] * torque[j];
+        let braked = Matrix3::new(
+            e(0, 0),
+            e(0, 1),
+            e(0, 2),
+            e(1, 0),
+            e(1, 1),
+            e(1, 2),
+            e(2, 0),
+            e(2, 1),
+            e(2, 2),
+        );
+        let turned = braked.transpose();
         let r = skew(&place.position);
         Blocks {
             m11: n.m11,
-            m12: n.m12 + p,
-            m21: n.m21 + p,
-            m22: n.m22 + product(&r, &p) - product(&p, &r),
+            m12: n.m12 - braked,
+            m21: n.m21 + turned,
+            m22: n.m22 - product(&r, &braked) - product(&turned, &r),
         }
     }
 }

@@ -302,9 +302,10 @@ impl PhysicalLaw {
         let plateau = broadside_drag(slenderness, fill);
         // Pressure on the two halves of a plate that rotates: ½ρC (I₂ k₁|u| + I₃ k₂|ω|), per axis
         // by how flat the body is seen along it. Spinning about z, a flat plate shows only its
-        // edge: the shadow of the proxy in the xz plane.
+        // edge: the shadow of the proxy in the xz plane, of which a strip has its length.
         let pressure = 0.5 * rho * plateau / mass;
-        let edge_on = (PI * a.powi(3) * c / 4.0, 8.0 / 15.0 * a.powi(4) * c);
+        let edge = a * plate.fraction;
+        let edge_on = (PI * edge.powi(3) * c / 4.0, 8.0 / 15.0 * edge.powi(4) * c);
         let flat = [thinness(c / b), thinness(c / a), thinness(b / a)];
         let second = [plate.second_moment.x, plate.second_moment.y, edge_on.0];
         let third = [plate.third_moment.x, plate.third_moment.y, edge_on.1];

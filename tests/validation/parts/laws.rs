@@ -78,6 +78,40 @@ fn tables_give_what_stands_in_them() {
     }
 }
 
+/// A body of revolution under a table faces wherever it moves, as it turns about its axle; its moments are about its middle, in which
+/// the plate's force that continues a table acts.
+#[test]
+fn tables_of_revolution_face_the_motion() {
+    let disc = HydroProperties::from_shape(&Cylinder::new(0.01, 0.1)).unwrap();
+    let (area, diameter) = (0.01 * PI, 0.2);
+    let table = PolarTable::from_csv("-20, -0.8, 0.3, 0.1\n20, 1.2, 0.3, -0.2").unwrap();
+    let table = table.with_revolution(Vector3::y()).unwrap();
+    assert!(table.at(70.0, 1e5).moment.abs() < 1e-9);
+    let mut free = body(disc, table.clone());
+    for degree in [0.0, 50.0, 130.0, 290.0_f64] {
+        let (sine, cosine) = degree.to_radians().sin_cos();
+        let forward = Vector3::new(cosine, 0.0, sine);
+        for angle in [-60.0, -10.0, 0.0, 5.0, 30.0_f64] {
+            let (rise, ahead) = angle.to_radians().sin_cos();
+            let u = (forward * ahead - Vector3::y() * rise) * 10.0;
+            let up = forward * rise + Vector3::y() * ahead;
+            let [force, torque] = load(&mut free, u, Vector3::y() * 30.0);
+            let row = table.at(angle, 1e5);
+            let pressure = 0.5 * DENSITY * 100.0 * area;
+            let exact = (up * row.lift - u * (0.1 * row.drag)) * pressure;
+            assert!(
+                (force - exact).norm() < 1e-3 * pressure,
+                "{degree}, {angle}: {force} {exact}"
+            );
+            let moment = forward.cross(&Vector3::y()) * (pressure * diameter * row.moment);
+            assert!(
+                (torque - moment).norm() < 1e-3 * pressure * diameter,
+                "{degree}, {angle}: {torque} {moment}"
+            );
+        }
+    }
+}
+
 /// Between Reynolds numbers coefficients are linear in the logarithm, beyond them constant.
 #[test]
 fn tables_by_reynolds_number() {

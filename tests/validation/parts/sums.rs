@@ -215,3 +215,25 @@ fn each_part_has_a_flow_of_its_own() {
     assert!((push / f64::from(sum) - 1.0).abs() < 0.05, "{push} {sum}");
     assert!(body.angvel().z < 0.0);
 }
+
+/// A plate that turns about its normal in a stream is not braked more by being divided: the forces of strips have the arms that
+/// the whole's damping stands for, and what is their own vanishes with their width.
+#[test]
+fn strips_spin_as_easily_as_the_plate() {
+    let (whole, mass) = solid_box([0.4, 2e-3, 0.05], 800.0, ViscousLaw::default());
+    let braked = |count: usize| {
+        let strips =
+            HydroProperties::strips_of_shape(&Cuboid::new(Vector::new(0.2, 1e-3, 0.025)), count);
+        let parts = strips.unwrap().into_iter().map(Part::new);
+        let body = whole.clone().with_parts(parts);
+        let mut free = FreeBody::new(&body, &mass, &Fluid::AIR).unwrap();
+        free.set_velocity(Vector3::z() * 5.0, Vector3::y() * 10.0);
+        -wide(free.forces(Vector3::zeros()).viscous().torque).y
+    };
+    let (one, some, many) = (braked(1), braked(8), braked(64));
+    assert!(
+        some < 1.05 * one && many < 1.05 * one,
+        "{one} {some} {many}"
+    );
+    assert!((many / some - 1.0).abs() < 0.05, "{some} {many}");
+}
