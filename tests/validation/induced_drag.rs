@@ -14,6 +14,7 @@ const ATTACHED: PhysicalLaw = PhysicalLaw {
     stalled_lift_narrow: 0.0,
     stall_sine: 10.0,
     stall_aspect: 0.0,
+    stall_limit: 10.0,
     stall_width: 0.1,
     pitch_stall: 0.0,
     pitch_stall_narrow: 0.0,

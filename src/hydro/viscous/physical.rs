@@ -454,11 +454,14 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let suction = one - self.suction_gain * attached;
         let pressure = across + wake * (suction * normal - across).max(zero);
         // Induced drag of the rotation's lift; that of the angle of attack is in the normal force.
-        let (wx, wy) = (by_angle.x + by_spin.x, by_angle.y + by_spin.y);
-        let lift = (wx * wx + wy * wy).sqrt();
+        // Spin along the motion makes no lift.
+        let along = safe_inverse(tangential2.sqrt());
+        let across_motion = (w.y * u.x - w.x * u.y) * along;
+        let turned = rotational * across_motion;
+        let lift = (translational * tangential2 * along + turned).abs();
+        let turned = turned.abs();
         let dynamic = self.dynamic_area * v_speed;
         let spin = (w.x * w.x + w.y * w.y).sqrt();
-        let turned = rotational * spin;
         let induced = self.induced_drag * lift * turned * per_aspect
             / (dynamic + constant(0.3) * lift).max(tiny);
         let drag = dynamic * (edgewise + pressure * sine2) + induced;

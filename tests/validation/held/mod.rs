@@ -7,6 +7,7 @@ mod friction;
 mod joints;
 mod locked;
 mod moments;
+mod pendulum;
 mod swing;
 mod touching;
 mod windmill;
