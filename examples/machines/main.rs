@@ -8,9 +8,16 @@
 //! Each writes `out/machines/NAME.svg` and prints what it did beside what it should do. Each is one file here, of the
 //! body and its parts first.
 
+mod dart;
 #[path = "../support/draw.rs"]
 mod draw;
 mod film;
+mod fold;
+mod glider;
+mod kite;
+mod parachute;
+mod rov;
+mod twig;
 mod windmill;
 
 use film::Shown;
@@ -22,11 +29,35 @@ type Failure = Box<dyn std::error::Error>;
 /// A machine: its name, what it is, and its run.
 type Machine = (&'static str, &'static str, fn() -> Result<Shown, Failure>);
 
-const MACHINES: &[Machine] = &[(
-    "windmill",
-    "three blades of strips on a hub, free to turn",
-    windmill::show,
-)];
+const MACHINES: &[Machine] = &[
+    (
+        "dart",
+        "a paper airplane that flies across a room",
+        dart::show,
+    ),
+    (
+        "glider",
+        "eight plates, put together in four ways",
+        glider::show,
+    ),
+    (
+        "kite",
+        "a diamond on a bridle and a line, with a tail",
+        kite::show,
+    ),
+    (
+        "parachute",
+        "a canopy and a load on eight lines",
+        parachute::show,
+    ),
+    ("rov", "six thrusters keep depth in a current", rov::show),
+    ("twig", "leaves on a twig that sways in gusts", twig::show),
+    (
+        "windmill",
+        "three blades of strips on a hub, free to turn",
+        windmill::show,
+    ),
+];
 
 fn main() -> ExitCode {
     let wanted = std::env::args().nth(1).unwrap_or_default();
