@@ -102,7 +102,7 @@ impl Kite {
     pub fn run(&mut self, seconds: f32) -> f64 {
         advance(&mut self.world, &mut self.immersion, seconds);
         let at = self.tow_point();
-        f64::from(at.y.atan2(at.x).to_degrees())
+        f64::from(at.y.atan2(at.x.hypot(at.z)).to_degrees())
     }
 
     /// Lift, drag and weight of the kite and its tail as they are now, N.
