@@ -11,7 +11,7 @@ use std::f32::consts::TAU;
 /// Diameter of the canopy laid flat, m.
 pub const NOMINAL: f32 = 1.2;
 /// What it is when filled with air: a half spheroid of this radius and depth, over the nominal diameter. It is 0.67 to 0.70
-/// across (Knacke, *Parachute Recovery Systems*, 1992); the depth leaves the gores their length.
+/// across (Knacke, *Parachute Recovery Systems*, 1992; recalled); the depth leaves the gores their length.
 pub const RADIUS: f32 = 0.35;
 const DEPTH: f32 = 0.285;
 /// Thickness that stands for the cloth, m: what the drag is read off on a grid of 64 lines a side has to hit the rim. Mass of the

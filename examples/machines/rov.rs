@@ -18,7 +18,7 @@ pub const HALF: Vector = Vector::new(0.2, 0.0856, 0.085);
 const RIGHTING: f32 = 0.02;
 /// Added mass, kg and kg·m², and damping, linear and quadratic, of BlueROV2 (von Benzon et al., *J. Mar. Sci. Eng.* 10, 1898 (2022),
 /// table A2).
-const ADDED: [f64; 6] = [6.36, 18.68, 7.12, 0.189, 0.222, 0.135];
+const ADDED: [f64; 6] = [6.36, 18.69, 7.12, 0.186, 0.222, 0.135];
 pub const LINEAR: [f64; 6] = [13.7, 33.0, 0.0, 0.0, 0.0, 0.8];
 pub const QUADRATIC: [f64; 6] = [141.0, 190.0, 217.0, 1.19, 1.5, 0.47];
 /// Diameter of the propellers, m, K_T = k₀ − k₁ J and K_Q alike; most turns per second.
@@ -113,7 +113,7 @@ impl Rov {
             } else {
                 0.5 * (force.y + torque.x / lever.x)
             };
-            let scale = self.immersion.fluid().density() as f64 * DIAMETER.powi(4) * THRUST[0];
+            let scale = f64::from(self.immersion.fluid().density()) * DIAMETER.powi(4) * THRUST[0];
             let turns = wanted.signum() * (wanted.abs() / scale).sqrt();
             let turns = turns.clamp(-FASTEST, FASTEST);
             self.immersion.set_thrust(self.body, i, turns);

@@ -7,9 +7,9 @@ use rapier3d_immersed::rapier3d::prelude::*;
 /// diameter across, and the load's ball 0.45: 0.70 on the nominal area. The crate's own cup has 1.39, this shallower one
 /// 1.35, and sixteen gores are 3 % less than their circle: within 8 %.
 ///
-/// Flat round parachutes have 0.75 to 0.80 (Knacke, *Parachute Recovery Systems*, 1992, table 5-1): this one misses that by 14 to
-/// 19 %, and descends 8 to 11 % too fast. A cup of that mouth would do so as well: real canopies
-/// breathe and glide to the side, rigid ones do not.
+/// Flat round parachutes have 0.75 to 0.80 (Knacke, *Parachute Recovery Systems*, 1992; recalled). This one misses that by 14 to
+/// 19 %, and descends 8 to 11 % too fast. Half of it is in the comparison: a rigid open cup with the published mouth has no
+/// more than 0.70.
 #[test]
 fn descends_as_its_mouth_says() {
     let mut chute = Parachute::new(120.0).unwrap();
