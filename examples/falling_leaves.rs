@@ -93,7 +93,7 @@ struct Options {
 enum SceneName {
     /// Leaves and confetti
     Leaves,
-    /// The thesis's paper airplane of 8.3 × 8.3 × 0.01 cm, started with 20 cm/s
+    /// The thesis's paper airplane of 8.3 × 8.3 × 0.01 cm with a paper clip on its nose, thrown with 2 m/s
     Airplane,
 }
 
@@ -297,7 +297,7 @@ fn kinds(options: &Options) -> Vec<Kind> {
         FluidName::Water => (1400.0, 2000.0),
     };
     if options.scene == SceneName::Airplane {
-        let kind = airplane::kind(options.density.unwrap_or(paper));
+        let kind = airplane::flying(options.density.unwrap_or(paper));
         return vec![kind.unwrap_or_else(|problem| bad_value("--density", problem))];
     }
     let leaf = options.density.unwrap_or(leaf);

@@ -1,4 +1,4 @@
-//! What a machine's run leaves behind: outlines of its bodies at moments, curves, and lines of text.
+//! A machine's run, and what it leaves behind: outlines of its bodies at moments, curves, and lines of text.
 
 use crate::Failure;
 use crate::draw::{self, Item, Panel, Point};
@@ -8,6 +8,7 @@ use rapier3d_immersed::rapier3d::na::{
     Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3,
 };
 use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::{Fluid, Immersion};
 use std::path::Path;
 
 pub const BLUE: RGBColor = RGBColor(30, 90, 200);
@@ -67,6 +68,25 @@ pub fn outlines(world: &PhysicsWorld, body: RigidBodyHandle, view: View) -> Vec<
         .collect()
 }
 
+/// A world of so many steps per second, in a fluid.
+pub fn world(fluid: Fluid, hz: f32) -> (PhysicsWorld, Immersion) {
+    let mut world = PhysicsWorld::new();
+    world.integration_parameters.dt = 1.0 / hz;
+    (world, Immersion::new(fluid))
+}
+
+/// Steps for so many seconds.
+pub fn advance(world: &mut PhysicsWorld, immersion: &mut Immersion, seconds: f32) {
+    let steps = (seconds / world.integration_parameters.dt).round() as usize;
+    (0..steps).for_each(|_| immersion.step(world));
+}
+
+/// A collider that touches nothing, as of a part of a machine.
+pub fn untouched(shape: SharedShape, place: Pose) -> ColliderBuilder {
+    let collider = ColliderBuilder::new(shape).position(place);
+    collider.collision_groups(InteractionGroups::none())
+}
+
 /// The outlines as items of a panel.
 pub fn drawn(
     world: &PhysicsWorld,
@@ -105,6 +125,24 @@ pub fn single(place: &Isometry3<f64>) -> Pose {
     let (t, q) = (&place.translation.vector, place.rotation.coords);
     let rotation = Rotation::from_xyzw(q.x as f32, q.y as f32, q.z as f32, q.w as f32);
     Pose::from_parts(Vector::new(t.x as f32, t.y as f32, t.z as f32), rotation)
+}
+
+/// The outlines of bodies, so many times as large, about a point of the picture.
+pub fn drawn_larger(
+    world: &PhysicsWorld,
+    bodies: &[RigidBodyHandle],
+    view: View,
+    color: RGBColor,
+    (about, by): (Point, f64),
+) -> Vec<Item> {
+    let away = |x: f64, from: f64| from + by * (x - from);
+    let outlines = bodies.iter().flat_map(|body| outlines(world, *body, view));
+    let enlarged = outlines.map(|line| {
+        let points = line.into_iter();
+        let points = points.map(|(x, y)| (away(x, about.0), away(y, about.1)));
+        Item::Line(points.collect(), color, 1)
+    });
+    enlarged.collect()
 }
 
 /// The convex hull of points, closed: Andrew's monotone chain.

@@ -11,12 +11,19 @@
 mod anemometer;
 mod arrow;
 mod boomerang;
+mod dart;
 #[path = "../support/draw.rs"]
 #[allow(dead_code, reason = "shared with other examples")]
 mod draw;
 mod film;
+mod fold;
 mod frisbee;
+mod glider;
+mod kite;
+mod parachute;
+mod rov;
 mod shuttlecock;
+mod twig;
 mod weather_vane;
 mod windmill;
 
@@ -30,6 +37,28 @@ type Failure = Box<dyn std::error::Error>;
 type Machine = (&'static str, &'static str, fn() -> Result<Shown, Failure>);
 
 const MACHINES: &[Machine] = &[
+    (
+        "dart",
+        "a paper airplane that flies across a room",
+        dart::show,
+    ),
+    (
+        "glider",
+        "eight plates, put together in four ways",
+        glider::show,
+    ),
+    (
+        "kite",
+        "a diamond on a bridle and a line, with a tail",
+        kite::show,
+    ),
+    (
+        "parachute",
+        "a canopy and a load on eight lines",
+        parachute::show,
+    ),
+    ("rov", "six thrusters keep depth in a current", rov::show),
+    ("twig", "leaves on a twig that sways in gusts", twig::show),
     (
         "windmill",
         "three blades of strips on a hub, free to turn",

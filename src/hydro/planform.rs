@@ -25,8 +25,8 @@ pub struct Planform {
     pub second_moment: Vector2<f64>,
     /// `∫|y|³ dA` (about x) and `∫|x|³ dA` (about y) from the center, m⁵.
     pub third_moment: Vector2<f64>,
-    /// Share of the area of the planform that it is cut out of, 1 if it is whole: the half extents are those of the
-    /// whole, whose aspect ratio it has.
+    /// Share of the area of the planform that it is cut out of, 1 if it is whole. A strip has the half extent of the whole
+    /// along its span, and so the whole's aspect ratio, and half its own mean chord across it.
     pub fraction: f64,
 }
 

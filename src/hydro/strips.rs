@@ -11,7 +11,8 @@ impl HydroProperties {
     ///
     /// Each is a [`Part`](crate::Part) that sees the velocity of its own middle, so that what a rotation does to the
     /// flow along the span comes by itself: the speed of a blade's tip, the roll damping of a wing. Each has the
-    /// aspect ratio of the whole ([`Planform::fraction`]), so that together they lift and drag like it.
+    /// aspect ratio of the whole ([`Planform::fraction`]), so that together they lift and drag like it, and its own mean
+    /// chord, so that a tapered or swept wing has its pressure where its sections have theirs.
     ///
     /// ```
     /// use rapier3d_immersed::rapier3d::prelude::*;
@@ -70,7 +71,7 @@ impl HydroProperties {
                     pieces.push([inside[0], inside[i - 1], inside[i]]);
                 }
             }
-            strip(&whole, &pieces, height)
+            strip(&whole, &pieces, height, width)
         });
         Ok(strips.flatten().collect())
     }
@@ -93,11 +94,13 @@ fn cut(polygon: Vec<Vector3<f64>>, at: f64, sign: f64) -> Vec<Vector3<f64>> {
     kept
 }
 
-/// The strip whose surface, in plate axes, consists of these triangles; `None` if it shows nothing.
+/// The strip of a width along the span whose surface, in plate axes, consists of these triangles; `None` if it shows
+/// nothing.
 fn strip(
     whole: &HydroProperties,
     pieces: &[[Vector3<f64>; 3]],
     height: f64,
+    width: f64,
 ) -> Option<HydroProperties> {
     let plate = &whole.planform;
     // Every line along the normal crosses the surface twice, hence the half.
@@ -126,6 +129,8 @@ fn strip(
     // The rest of the rotational inertia comes from where the strips are.
     let span = plate.axes * Vector3::x();
     let about_span = span.dot(&(about_middle.angular * span)).max(0.0);
+    let mut half_extents = plate.half_extents;
+    half_extents.y = 0.5 * area / width;
     Some(HydroProperties {
         volume: whole.volume * fraction,
         centroid: center,
@@ -141,6 +146,7 @@ fn strip(
             second_moment: second,
             third_moment: third,
             fraction: fraction * plate.fraction,
+            half_extents,
             ..plate.clone()
         },
         proxy: whole.proxy,
@@ -186,6 +192,29 @@ mod tests {
             let pushed = sum(&|s| s.added_mass.linear.trace());
             assert!((pushed / whole.added_mass.linear.trace() - 1.0).abs() < 1e-9);
             strips.iter().for_each(|strip| strip.check().unwrap());
+        }
+    }
+
+    /// Strips of a triangle have the chord that it has where they are, and the aspect ratio of the whole.
+    #[test]
+    fn strips_have_chords_of_their_own() {
+        let points = [
+            Vector::new(0.0, 0.0, 0.1),
+            Vector::new(0.4, 0.0, -0.1),
+            Vector::new(-0.4, 0.0, -0.1),
+        ];
+        let both = |y: f32| points.map(|p| p + Vector::Y * y);
+        let points = [both(1e-3), both(-1e-3)].concat();
+        let delta = rapier3d::prelude::SharedShape::convex_hull(&points).unwrap();
+        let strips = HydroProperties::strips_of_shape(delta.as_ref(), 8).unwrap();
+        for strip in &strips {
+            let plate = &strip.planform;
+            let chord = 0.2 * (1.0 - plate.center.x.abs() / 0.4);
+            let own = 2.0 * plate.half_extents.y;
+            // The chord at the middle of the area and the mean chord differ at the tip, by a sixth of it.
+            assert!((own - chord).abs() < 0.01, "{own} {chord}");
+            let aspect = 4.0 * plate.half_extents.x.powi(2) * plate.fraction / plate.area;
+            assert!((aspect - 8.0).abs() < 1e-4, "{aspect}");
         }
     }
 

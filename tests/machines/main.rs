@@ -34,10 +34,42 @@ mod anemometer_test;
 mod arrow_test;
 #[path = "boomerang.rs"]
 mod boomerang_test;
+#[allow(dead_code, reason = "tests draw nothing")]
+#[path = "../../examples/machines/dart.rs"]
+mod dart;
+#[path = "../../examples/machines/fold.rs"]
+mod fold;
 #[path = "frisbee.rs"]
 mod frisbee_test;
+#[allow(dead_code, reason = "tests draw nothing")]
+#[path = "../../examples/machines/glider.rs"]
+mod glider;
+#[allow(dead_code, reason = "tests draw nothing")]
+#[path = "../../examples/machines/kite.rs"]
+mod kite;
+#[allow(dead_code, reason = "tests draw nothing")]
+#[path = "../../examples/machines/parachute.rs"]
+mod parachute;
+#[allow(dead_code, reason = "tests draw nothing")]
+#[path = "../../examples/machines/rov.rs"]
+mod rov;
 #[path = "shuttlecock.rs"]
 mod shuttlecock_test;
+#[path = "dart.rs"]
+mod test_of_dart;
+#[path = "glider.rs"]
+mod test_of_glider;
+#[path = "kite.rs"]
+mod test_of_kite;
+#[path = "parachute.rs"]
+mod test_of_parachute;
+#[path = "rov.rs"]
+mod test_of_rov;
+#[path = "twig.rs"]
+mod test_of_twig;
+#[allow(dead_code, reason = "tests draw nothing")]
+#[path = "../../examples/machines/twig.rs"]
+mod twig;
 #[path = "weather_vane.rs"]
 mod weather_vane_test;
 #[path = "windmill.rs"]

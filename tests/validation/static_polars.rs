@@ -17,6 +17,7 @@ fn attached() -> PhysicalLaw {
     PhysicalLaw {
         lift_slope: 1.0,
         stall_sine: 10.0,
+        stall_limit: 10.0,
         rotational_stall: 0.0,
         rotational_stall_narrow: 0.0,
         attached_damping: 0.0,
