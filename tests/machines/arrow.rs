@@ -26,7 +26,7 @@ fn swings_as_a_weathervane() {
         let mut arrow = must(Arrow::new(1f32.to_radians(), hz));
         arrow.step();
         let expected = weathervane(&arrow);
-        let (frequency, decay) = oscillation(&arrow.curve(2.0));
+        let (frequency, _) = oscillation(&arrow.curve(2.0));
         let frequency = frequency / TAU;
         assert!(
             (frequency / expected - 1.0).abs() < 0.03,

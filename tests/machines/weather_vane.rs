@@ -28,7 +28,7 @@ fn swings_as_a_weathervane() {
         let mut vane = must(WeatherVane::new(3f32.to_radians(), hz));
         vane.step();
         let expected = weathervane(&vane);
-        let (frequency, decay) = oscillation(&vane.curve(3.0));
+        let (frequency, _) = oscillation(&vane.curve(3.0));
         let frequency = frequency / TAU;
         assert!(
             (frequency / expected - 1.0).abs() < 0.03,

@@ -110,7 +110,7 @@ fn kept(rotor: Rotor, hz: f32) -> f64 {
     let tower = world.insert_body(RigidBodyBuilder::fixed());
     let free = || RigidBodyBuilder::dynamic().can_sleep(false);
     let (hub, _) = world.insert(free(), ColliderBuilder::ball(0.04).density(1000.0));
-    let mut hold = |world: &mut PhysicsWorld, a, b, joint: GenericJoint| {
+    let hold = |world: &mut PhysicsWorld, a, b, joint: GenericJoint| {
         if rotor.multibody.is_some() {
             world.insert_multibody_joint(a, b, joint);
         } else {

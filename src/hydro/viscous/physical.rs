@@ -65,70 +65,70 @@ coefficients! {
     pub struct PhysicalLaw {
         /// χ: travel of the center of pressure toward the leading edge in attached flow of two dimensions, in
         /// chords; ¼ in theory.
-        pressure_travel: 0.244, NotNegative, search 0.22 to 0.28;
+        pressure_travel: 0.241, NotNegative, search 0.22 to 0.28;
         /// h: lift slope over Helmbold's.
         lift_slope: 1.01, NotNegative, search 0.93 to 1.08;
         /// K_v: vortex lift of slender plates; π in theory.
-        vortex_lift: 2.97, NotNegative, search 1.0 to 6.0;
+        vortex_lift: 2.95, NotNegative, search 1.0 to 6.0;
         /// C_s: half the slope of the normal force of separated flow; of wide plates.
-        stalled_lift: 0.585, NotNegative, search 0.4 to 1.3;
+        stalled_lift: 0.565, NotNegative, search 0.4 to 1.3;
         /// C_s of narrow plates.
-        stalled_lift_narrow: 0.992, NotNegative, search 0.4 to 1.2;
+        stalled_lift_narrow: 0.997, NotNegative, search 0.4 to 1.2;
         /// s₀: sine of the angle of attack at which the flow stalls in two dimensions.
-        stall_sine: 0.16, NotNegative, search 0.08 to 0.35;
+        stall_sine: 0.136, NotNegative, search 0.08 to 0.35;
         /// s₁: what is added to it per 1/AR.
-        stall_aspect: 0.525, NotNegative, search 0.2 to 0.8;
+        stall_aspect: 0.522, NotNegative, search 0.2 to 0.8;
         /// s_m: the sine beyond which it does not stall later: rectangular plates of AR 0.5 stall at 40° (Torres & Mueller,
         /// *AIAA J.* 42, 865 (2004)).
-        stall_limit: 0.65, NotNegative, search 0.6 to 0.75;
+        stall_limit: 0.72, NotNegative, search 0.6 to 0.75;
         /// δ: width of the stall in sin α.
-        stall_width: 0.053, Positive, search 0.03 to 0.25;
+        stall_width: 0.0522, Positive, search 0.03 to 0.25;
         /// k: shift of the stall's sine by the signed pitch rate; of wide plates.
-        pitch_stall: 7.35, NotNegative, search 0.0 to 14.0;
+        pitch_stall: 6.69, NotNegative, search 0.0 to 14.0;
         /// k of narrow plates.
-        pitch_stall_narrow: 0.149, NotNegative, search 0.0 to 3.0;
+        pitch_stall_narrow: 0.0135, NotNegative, search 0.0 to 3.0;
         /// s_d: greatest delay of the stall's sine by rotation.
-        stall_delay: 0.0153, NotNegative, search 0.0 to 0.6;
+        stall_delay: 0.0146, NotNegative, search 0.0 to 0.6;
         /// χ_s: travel of the center of pressure in separated flow, in chords; of wide plates.
-        stalled_travel: 0.136, NotNegative, search 0.0 to 0.25;
+        stalled_travel: 0.134, NotNegative, search 0.0 to 0.25;
         /// χ_s of narrow plates.
-        stalled_travel_narrow: 0.0342, NotNegative, search 0.0 to 0.25;
+        stalled_travel_narrow: 0.0349, NotNegative, search 0.0 to 0.25;
         /// Re_χ: below it the center of pressure stays in the middle.
-        travel_onset: 14.7, NotNegative, search 10.0 to 40.0;
+        travel_onset: 19.2, NotNegative, search 10.0 to 40.0;
         /// ε: loss of rotational lift broadside on; of wide plates.
-        rotational_stall: 0.0108, Unit, search 0.0 to 1.0;
+        rotational_stall: 0.0, Unit, search 0.0 to 1.0;
         /// ε of narrow plates.
-        rotational_stall_narrow: 0.218, Unit, search 0.0 to 1.0;
+        rotational_stall_narrow: 0.22, Unit, search 0.0 to 1.0;
         /// k_M ∈ [0, 1]: share of the added mass's inertial coupling (Munk moment) that plates feel.
-        munk: 0.104, Unit, search 0.0 to 1.0;
+        munk: 0.108, Unit, search 0.0 to 1.0;
         /// k₁ₐ: damping of pitching by translation in attached flow; 2.5 in theory in two dimensions, and not much less at slender plates.
-        attached_damping: 2.14, NotNegative, search 0.0 to 4.0;
+        attached_damping: 2.17, NotNegative, search 0.0 to 4.0;
         /// k_p: damping of rolling in attached flow, in units of strip theory's `2πη/C_D90`; of wide plates, where it is 1
         /// in theory.
-        roll_damping: 0.95, NotNegative, search 0.4 to 1.6;
+        roll_damping: 1.59, NotNegative, search 0.4 to 1.6;
         /// k_p of narrow plates; 3/8 in the theory of slender wings (Jones 1946).
         roll_damping_narrow: 0.375, NotNegative;
         /// k₁: damping of rotation by translation in separated flow; of wide plates.
-        translation_damping: 0.461, NotNegative, search 0.0 to 4.0;
+        translation_damping: 0.455, NotNegative, search 0.0 to 4.0;
         /// k₁ of narrow plates.
-        translation_damping_narrow: 0.176, NotNegative, search 0.0 to 4.0;
+        translation_damping_narrow: 0.133, NotNegative, search 0.0 to 4.0;
         /// k₂: damping of rotation by rotation; of wide plates.
-        rotation_damping: 0.646, NotNegative, search 0.0 to 5.0;
+        rotation_damping: 0.589, NotNegative, search 0.0 to 5.0;
         /// k₂ of narrow plates.
-        rotation_damping_narrow: 0.0162, NotNegative, search 0.0 to 5.0;
+        rotation_damping_narrow: 0.035, NotNegative, search 0.0 to 5.0;
         /// k_f: skin friction, `k_f Re^−½`.
-        friction: 2.49, NotNegative, search 2.4 to 5.0;
+        friction: 2.44, NotNegative, search 2.4 to 5.0;
         /// k_e: pressure drag of the edges, per thickness over chord.
-        edge_drag: 0.593, NotNegative, search 0.0 to 2.0;
+        edge_drag: 0.596, NotNegative, search 0.0 to 2.0;
         /// Re_L: onset of the wake's lift, `1/(1 + (Re_L/Re)⁷)`.
-        lift_onset: 90.8, NotNegative, search 50.0 to 140.0;
+        lift_onset: 90.7, NotNegative, search 50.0 to 140.0;
         /// Re_D: below it rotation is damped more, `1 + (Re_D/Re)^1.5`.
-        damping_onset: 41.5, NotNegative, search 0.0 to 60.0;
+        damping_onset: 40.1, NotNegative, search 0.0 to 60.0;
         /// k_s: share of the leading edge's suction that attached flow loses: at 1 its force is normal to
         /// the plate.
-        suction_loss: 0.969, Unit, search 0.6 to 1.0;
+        suction_loss: 0.964, Unit, search 0.6 to 1.0;
         /// k_i: induced drag of the rotation, in units of the elliptic wing's.
-        induced_drag: 6.91, NotNegative, search 0.0 to 12.0;
+        induced_drag: 8.35, NotNegative, search 0.0 to 12.0;
         /// Lift of spinning bodies that are not plates, the Magnus force, in units of that of a ball:
         /// `C_L = S/(2.32 S + 0.4)` on the shadow of the sphere of the same volume, of radius R, with the
         /// spin ratio `S = R|ω × û|/|u|`. Fitted to baseballs (Nathan, *Am. J. Phys.* 76, 119 (2008): S from
