@@ -8,7 +8,6 @@ use rapier3d_immersed::{
     DryMass, Error, Fluid, FreeBody, HydroProperties, ImmersedBody, Integrator, PhysicalLaw,
     ThesisLaw, ViscousLaw,
 };
-use std::f64::consts::PI;
 
 /// m/s², world axes: z is up.
 pub const GRAVITY: Vector3<f64> = Vector3::new(0.0, 0.0, -9.81);
@@ -27,24 +26,27 @@ pub enum Law {
 /// calibrated ones the plate is chaotic between flutter and tumbling (as
 /// measured), and no surrogate follows it there.
 const SMOOTH: PhysicalLaw = PhysicalLaw {
-    pressure_travel: 0.25,
+    pressure_travel: 0.112,
     lift_slope: 1.0,
     vortex_lift: 0.0,
     stalled_lift: 0.65,
     stalled_lift_narrow: 0.65,
-    stall_sine: 0.4,
-    stall_aspect: 0.3,
-    stall_width: 0.6,
+    stall_sine: 0.74,
+    stall_aspect: 0.0,
+    stall_limit: 10.0,
+    stall_width: 0.35,
     pitch_stall: 0.0,
     pitch_stall_narrow: 0.0,
     stall_delay: 0.0,
-    stalled_travel: 0.1,
-    stalled_travel_narrow: 0.1,
+    stalled_travel: 0.0,
+    stalled_travel_narrow: 0.0,
     travel_onset: 0.0,
     rotational_stall: 0.5,
     rotational_stall_narrow: 0.5,
     munk: 0.16,
-    attached_damping: 2.0,
+    attached_damping: 0.655,
+    roll_damping: 1.0,
+    roll_damping_narrow: 0.375,
     translation_damping: 0.655,
     translation_damping_narrow: 0.655,
     rotation_damping: 1.35,
@@ -53,7 +55,7 @@ const SMOOTH: PhysicalLaw = PhysicalLaw {
     edge_drag: 0.15,
     lift_onset: 95.0,
     damping_onset: 25.0,
-    suction_loss: 1.0,
+    suction_loss: 0.0,
     induced_drag: 0.0,
     magnus: 0.5,
 };

@@ -1,7 +1,7 @@
 //! What bodies of parts and engines keep from step to step, besides what all bodies do.
 
-use super::body_state::TurbulenceMemory;
 use super::shared_constants::SharedConstants;
+use super::turbulence_memory::TurbulenceMemory;
 use crate::body::ImmersedBody;
 use crate::dynamics::ForceAndTorque;
 use crate::hydro::viscous::ForceFactors;

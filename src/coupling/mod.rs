@@ -7,6 +7,7 @@
 //!     ├──► admission ──► saved_properties, body_look    bodies enter and leave the fluid
 //!     ├──► body_changes                                 what users change of a body in the fluid
 //!     ├──► readout, impulse                             forces on one body; pushes at body and fluid
+//!     ├──► parts ──► equipment                          parts, thrusters and volume, set in flight
 //!     ├──► rapier_sets, warning, snapshot               what users hand in, are told, and may save
 //!     └──► step::driver                                 prepare → sample → integrate → write back
 //! ```
@@ -30,6 +31,7 @@ mod shared_constants;
 #[cfg(feature = "serde-serialize")]
 mod snapshot;
 mod step;
+mod turbulence_memory;
 mod warning;
 
 pub use body_look::BodyChanges;

@@ -5,7 +5,7 @@ use crate::body::from_rapier::inertia;
 use crate::body::{DryMass, ImmersedBody, Thruster};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
 use crate::dynamics::flow_response::FlowResponse;
-use crate::dynamics::parts::PartConstants;
+use crate::dynamics::part_constants::PartConstants;
 use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::part_law::place::CoupledMass;

@@ -1,6 +1,6 @@
 //! The constants of one body in one fluid, made once and used in every step.
 
-use super::parts::{BodyFrame, PartConstants, coupled_mass};
+use super::part_constants::{BodyFrame, PartConstants, coupled_mass};
 use crate::body::{DryMass, ImmersedBody};
 use crate::error::Error;
 use crate::fluid::Fluid;

@@ -1,7 +1,8 @@
 //! The comparison behind the integrator's documentation: three designs on the same cases.
 
 use super::constants::BodyConstants;
-use super::integrate::{Load, Motion, substep};
+use super::integrate::{Motion, substep};
+use super::load::Load;
 use super::locked::Locks;
 use super::reaction::Whole;
 use crate::body::{DryMass, ImmersedBody};

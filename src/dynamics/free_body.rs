@@ -3,8 +3,9 @@
 use super::constants::BodyConstants;
 use super::flow_response::FlowResponse;
 use super::forces::{ForceBreakdown, Instant};
-use super::integrate::{Load, Motion, advance, substeps};
+use super::integrate::{Motion, advance, substeps};
 use super::integrator::Integrator;
+use super::load::Load;
 use super::locked::Locks;
 use super::parts::{PartNow, Parts};
 use super::reaction::Whole;

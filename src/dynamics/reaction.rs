@@ -1,7 +1,7 @@
 //! What the fluid does to a body in one substep: the equation that is solved for its new velocity.
 
 use super::constants::InertiaConstants;
-use super::integrate::Load;
+use super::load::Load;
 use crate::hydro::viscous::terms::{Evaluate, safe_inverse};
 use crate::math::Scalar;
 use crate::math::spatial::{Twist, Wrench, cross, dot, rotate_back};

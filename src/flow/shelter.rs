@@ -24,13 +24,13 @@ const DEFICIT: Real = 0.9;
 /// use rapier3d_immersed::flow::{Flow, Shelter, Uniform};
 /// use rapier3d_immersed::rapier3d::prelude::*;
 ///
-/// // A wall of 2 m across a wind along x.
+/// // A wall of 4 m across a wind along x.
 /// let wall = (SharedShape::cuboid(0.1, 2.0, 10.0), Pose::IDENTITY);
 /// let region = [Vector::new(-2.0, 0.0, -2.0), Vector::new(20.0, 6.0, 2.0)];
 /// let wind = Uniform::new(8.0, 0.0, 0.0);
 /// let flow = Shelter::bake(wind, Vector::X, &[wall], region, 0.5)?;
 /// let at = |x, y| flow.velocity(Vector::new(x, y, 0.0), 0.0).x;
-/// assert!(at(1.0, 1.0) < 2.0 && at(18.0, 1.0) > 5.0);
+/// assert!(at(1.0, 1.0) < 2.0 && at(18.0, 1.0) > 4.0);
 /// assert_eq!(at(1.0, 5.0), 8.0); // above it
 /// assert_eq!(at(-1.5, 1.0), 8.0); // before it
 /// # Ok::<(), rapier3d_immersed::Error>(())
@@ -177,7 +177,8 @@ impl<F: Flow> Shelter<F> {
     }
 }
 
-/// Square root of the area that a shape's box shows along a direction, m.
+/// The height that the lee of a shape is measured by, m: the square root of the area that its box shows along a direction, or its
+/// middle side if that is less.
 fn height_across(shape: &SharedShape, pose: &Pose, direction: Vector) -> Real {
     let sides = shape.compute_aabb(pose).extents();
     let d = direction.abs();
@@ -185,7 +186,7 @@ fn height_across(shape: &SharedShape, pose: &Pose, direction: Vector) -> Real {
     // What is wide shelters by its lesser side.
     let mut lengths = sides.to_array();
     lengths.sort_by(Real::total_cmp);
-    area.sqrt().min(2.0 * lengths[1]).max(1e-3)
+    area.sqrt().min(lengths[1]).max(1e-3)
 }
 
 impl<F: Flow> Flow for Shelter<F> {
@@ -231,7 +232,7 @@ mod tests {
     fn behind_a_wall() {
         let flow = wall();
         let at = |x, y| flow.velocity(Vector::new(x, y, 0.0), 0.0).x;
-        let behind = |x: Real| 10.0 * (1.0 - DEFICIT / (1.0 + (x - 0.1) / 20.0));
+        let behind = |x: Real| 10.0 * (1.0 - DEFICIT / (1.0 + (x - 0.1) / 10.0));
         for x in [1.0, 5.0, 20.0, 30.0] {
             assert!(
                 (at(x, 0.0) - behind(x)).abs() < 0.05,

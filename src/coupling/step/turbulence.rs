@@ -1,8 +1,8 @@
 //! The turbulence that each body of a batch sees.
 
 use super::stage_data::StepInput;
-use crate::coupling::body_state::TurbulenceMemory;
 use crate::coupling::environment::Environment;
+use crate::coupling::turbulence_memory::TurbulenceMemory;
 use crate::flow::FlowSample;
 use crate::math::{Lanes, MOST_LANES, OnLanes, Row, row, vector};
 use crate::turbulence::{

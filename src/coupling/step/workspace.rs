@@ -6,8 +6,9 @@ use super::mean_motion::MeanMotion;
 use super::stage_data::{
     Disturbance, PartRow, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
 };
-use crate::coupling::body_state::{BodyState, IntegratorState, TurbulenceMemory};
+use crate::coupling::body_state::{BodyState, IntegratorState};
 use crate::coupling::shared_constants::{ConstantsTable, Route};
+use crate::coupling::turbulence_memory::TurbulenceMemory;
 use crate::flow::FlowSample;
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::Vector;

@@ -20,7 +20,7 @@ coefficients! {
     /// separated otherwise. All forces use the velocity relative to the fluid **v** at the center of
     /// pressure p:
     ///
-    /// * **Stall.** `s_e = s₀ + s₁/AR + min(k r, s_d)`: small wings stall late. It moves with the *signed*
+    /// * **Stall.** `s_e = min(s₀ + s₁/AR, s_m) + min(k r, s_d)`: small wings stall late. It moves with the *signed*
     ///   pitch rate `r = (c/2|u|) dα/dt` as it does on helicopter blades (Gormont 1973): rotation that
     ///   raises the angle of attack delays the stall, by `s_d` at most, rotation that lowers it hastens
     ///   it. Without this plates that glide well no longer tumble.
@@ -42,7 +42,8 @@ coefficients! {
     /// * **Friction** `k_f Re^−½` (two sides of a laminar boundary layer: 2.66) and the drag `k_e t/c` of the
     ///   edges.
     /// * **Damping** of the rotation by the pressure on the two halves of the plate, `½ρC_D90 (I₂ K₁|u| + I₃
-    ///   K₂|ω|)` with `K₁ = f k₁ₐ + (1 − f) k₁`, and by friction.
+    ///   K₂|ω|)` with `K₁ = f k₁ₐ + (1 − f) k₁`, and by friction; about the motion, as a wing that rolls, k₁ₐ is
+    ///   `k_p 2πη/C_D90`.
     /// * **Munk moment** of the added mass weakened to `munk`, because separated flow does not recover
     ///   the pressure that makes it; what of the added mass is the same in all directions, and makes no
     ///   moment, is left as it is, and so are bodies that are as thick as wide.
@@ -101,7 +102,8 @@ coefficients! {
         rotational_stall_narrow: 0.22, Unit, search 0.0 to 1.0;
         /// k_M ∈ [0, 1]: share of the added mass's inertial coupling (Munk moment) that plates feel.
         munk: 0.108, Unit, search 0.0 to 1.0;
-        /// k₁ₐ: damping of pitching by translation in attached flow; 2.5 in theory in two dimensions, and not much less at slender plates.
+        /// k₁ₐ: damping of pitching by translation in attached flow; 2.5 in theory in two dimensions, and not much less of
+        /// slender plates.
         attached_damping: 2.17, NotNegative, search 0.0 to 4.0;
         /// k_p: damping of rolling in attached flow, in units of strip theory's `2πη/C_D90`; of wide plates, where it is 1
         /// in theory.
