@@ -204,12 +204,15 @@ fn scaled(mass: &DryMass, to: f64) -> DryMass {
     }
 }
 
+/// Shapes at their poses in a body's frame.
+type PosedShapes<'a> = Vec<(Pose, &'a dyn Shape)>;
+
 /// Shapes of the solid colliders of a body with their poses, and its center of mass, in its frame.
 fn solid_parts<'a>(
     bodies: &RigidBodySet,
     colliders: &'a ColliderSet,
     handle: RigidBodyHandle,
-) -> Result<(Vec<(Pose, &'a dyn Shape)>, Vector3<f64>), Error> {
+) -> Result<(PosedShapes<'a>, Vector3<f64>), Error> {
     let body = bodies.get(handle).ok_or(Error::NoBody)?;
     let mut parts = Vec::new();
     for collider in body

@@ -60,6 +60,7 @@ impl Equipment {
     }
 
     /// Whether every number can be.
+    #[cfg(feature = "serde-serialize")]
     pub fn is_valid(&self) -> bool {
         let part = |part: &PartState| {
             let memory = &part.turbulence;

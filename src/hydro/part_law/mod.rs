@@ -28,6 +28,8 @@ use polar_table::{PolarConstants, Section};
 use rapier3d::na::{Matrix3, Vector3};
 
 /// What gives the fluid's force on a part of a body.
+// One per part of a description, and most are of the larger variants: a box would save nothing.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(
@@ -154,6 +156,7 @@ impl PartLaw {
 }
 
 /// A part's law for one body in one fluid, `f64` or `f32`.
+// As above.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PreparedPart<T> {

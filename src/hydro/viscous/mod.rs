@@ -55,6 +55,8 @@ use thesis::ThesisConstants;
 /// let flutters = ViscousLaw::Thesis(ThesisLaw::new(ThesisLaw::ZIGZAG));
 /// assert!(flutters.check().is_ok());
 /// ```
+// There is one per description, and most are of the largest variant.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde-serialize",
