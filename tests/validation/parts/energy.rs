@@ -41,7 +41,11 @@ fn table() -> PolarTable {
 
 fn part(seed: u64, index: u64) -> Part {
     let size = vector(seed, 5 * index).map(|x| (0.05 * (1.0 + 0.9 * x)) as f32);
-    let thick = if index.is_multiple_of(2) { 0.001 } else { size.z };
+    let thick = if index.is_multiple_of(2) {
+        0.001
+    } else {
+        size.z
+    };
     let hydro = HydroProperties::from_shape(&Cuboid::new(Vector::new(size.x, size.y, thick)));
     let part = Part::new(hydro.unwrap()).at(Isometry3::from_parts(
         Translation3::from(vector(seed, 5 * index + 1) * 0.5),
