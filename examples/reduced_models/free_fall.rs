@@ -22,7 +22,7 @@ pub enum Law {
     Default,
 }
 
-/// The default law with coefficients that are less abrupt: its stall is wide and does not move. Under the
+/// The default law with coefficients that are less abrupt: it never stalls. Under the
 /// calibrated ones the plate is chaotic between flutter and tumbling (as
 /// measured), and no surrogate follows it there.
 const SMOOTH: PhysicalLaw = PhysicalLaw {
@@ -31,7 +31,7 @@ const SMOOTH: PhysicalLaw = PhysicalLaw {
     vortex_lift: 0.0,
     stalled_lift: 0.65,
     stalled_lift_narrow: 0.65,
-    stall_sine: 0.74,
+    stall_sine: 1.5,
     stall_aspect: 0.0,
     stall_limit: 10.0,
     stall_width: 0.35,
