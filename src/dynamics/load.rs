@@ -2,7 +2,7 @@
 
 use super::locked::Locks;
 use crate::math::Scalar;
-use crate::math::spatial::rotate_back;
+use crate::math::spatial::{Wrench, cross, rotate_back};
 use rapier3d::na::{Quaternion, Vector3};
 
 /// What acts on a body besides the fluid's resistance, constant over a step. World axes, per unit of
@@ -35,6 +35,21 @@ pub(crate) struct Load<T> {
 }
 
 impl<T: Scalar> Load<T> {
+    /// Force and torque on a body at an attitude, plate axes.
+    #[inline(always)]
+    pub fn applied(&self, attitude: &Quaternion<T>) -> Wrench<T> {
+        let mut applied = Wrench {
+            force: rotate_back(attitude, &self.force),
+            torque: Vector3::repeat(self.force.x.constant(0.0)),
+        };
+        if self.turning {
+            let buoyancy = rotate_back(attitude, &self.buoyancy);
+            applied.torque =
+                rotate_back(attitude, &self.torque) + cross(&self.buoyancy_arm, &buoyancy);
+        }
+        applied
+    }
+
     /// The spin that the fluid's strain is worth to an ellipsoid, plate axes:
     /// ωₓ = (b² − c²)/(b² + c²) E_yz and so on (Jeffery 1922).
     #[inline(always)]

@@ -20,7 +20,7 @@ use crate::hydro::part_law::Raise;
 use crate::hydro::part_law::place::CoupledMass;
 use crate::hydro::viscous::ForceFactors;
 use crate::math::Scalar;
-use crate::math::spatial::{Blocks, Twist, Wrench, cross, product, rotate_back, skew, transform};
+use crate::math::spatial::{Blocks, Twist, cross, product, rotate_back, skew, transform};
 use rapier3d::na::{Matrix3, Vector3};
 
 /// What the fluid around a part does, and how the part is set: of one body, or of several side by side.
@@ -83,15 +83,7 @@ impl<T: Scalar, R: Raise<T>, N: Fn(usize) -> PartNow<T>> Reaction<T> for Parts<'
             attitude,
         } = frozen;
         let zero = h.constant(0.0);
-        let mut applied = Wrench {
-            force: rotate_back(attitude, &load.force),
-            torque: Vector3::repeat(zero),
-        };
-        if load.turning {
-            let buoyancy = rotate_back(attitude, &load.buoyancy);
-            applied.torque =
-                rotate_back(attitude, &load.torque) + cross(&load.buoyancy_arm, &buoyancy);
-        }
+        let mut applied = load.applied(attitude);
         let nothing = Matrix3::repeat(zero);
         let mut n = Blocks {
             m11: nothing,

@@ -4,7 +4,7 @@ use super::constants::InertiaConstants;
 use super::load::Load;
 use crate::hydro::viscous::terms::{Evaluate, safe_inverse};
 use crate::math::Scalar;
-use crate::math::spatial::{Twist, Wrench, cross, dot, rotate_back};
+use crate::math::spatial::{Twist, dot, rotate_back};
 use rapier3d::na::{Quaternion, Vector3};
 
 /// The state that a substep's forces are frozen at.
@@ -74,15 +74,7 @@ impl<T: Scalar, L: Evaluate<T>> Reaction<T> for Whole<'_, L> {
             &inertia.center_velocity(middle),
             &(middle.angular - fluid_spin),
         );
-        let mut applied = Wrench {
-            force: rotate_back(attitude, &load.force),
-            torque: Vector3::repeat(zero),
-        };
-        if load.turning {
-            let buoyancy = rotate_back(attitude, &load.buoyancy);
-            applied.torque =
-                rotate_back(attitude, &load.torque) + cross(&load.buoyancy_arm, &buoyancy);
-        }
+        let mut applied = load.applied(attitude);
         if load.spinning {
             applied.torque += terms.damping.component_mul(&fluid_spin);
         }

@@ -136,6 +136,23 @@ impl<T: Scalar> Blocks<T> {
     }
 }
 
+/// The matrix of these entries, by row and column.
+#[inline(always)]
+pub(crate) fn matrix<T: Scalar>(entry: impl Fn(usize, usize) -> T) -> Matrix3<T> {
+    let e = entry;
+    Matrix3::new(
+        e(0, 0),
+        e(0, 1),
+        e(0, 2),
+        e(1, 0),
+        e(1, 1),
+        e(1, 2),
+        e(2, 0),
+        e(2, 1),
+        e(2, 2),
+    )
+}
+
 /// `v ×` as a matrix.
 #[inline(always)]
 pub(crate) fn skew<T: Scalar>(v: &Vector3<T>) -> Matrix3<T> {

@@ -198,46 +198,19 @@ impl<S: Simd> LaneGroup<'_, S> {
             advance::<false, _, _>(inertia, &parts, &load, m, dt, count, most, iterations);
         } else {
             // Most bodies are symmetric plates: they have code of their own, the others share theirs.
+            macro_rules! advance {
+                ($symmetric:literal, $law:expr) => {{
+                    let law = Factored { law: $law, factors };
+                    let law = &Whole(&law);
+                    advance::<$symmetric, _, _>(
+                        inertia, law, &load, m, dt, count, most, iterations,
+                    );
+                }};
+            }
             match (law, self.symmetric) {
-                (PreparedLaw::Plate(law), true) => {
-                    let law = Factored { law, factors };
-                    advance::<true, _, _>(
-                        inertia,
-                        &Whole(&law),
-                        &load,
-                        m,
-                        dt,
-                        count,
-                        most,
-                        iterations,
-                    );
-                }
-                (law, true) => {
-                    let law = Factored { law, factors };
-                    advance::<true, _, _>(
-                        inertia,
-                        &Whole(&law),
-                        &load,
-                        m,
-                        dt,
-                        count,
-                        most,
-                        iterations,
-                    );
-                }
-                (law, false) => {
-                    let law = Factored { law, factors };
-                    advance::<false, _, _>(
-                        inertia,
-                        &Whole(&law),
-                        &load,
-                        m,
-                        dt,
-                        count,
-                        most,
-                        iterations,
-                    );
-                }
+                (PreparedLaw::Plate(law), true) => advance!(true, law),
+                (law, true) => advance!(true, law),
+                (law, false) => advance!(false, law),
             }
         }
 

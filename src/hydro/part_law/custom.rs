@@ -3,10 +3,10 @@
 use super::place::{PartPlace, moved, velocity_at};
 use crate::error::Error;
 use crate::math::Scalar;
-use crate::math::spatial::{Blocks, Twist, Wrench, dot};
+use crate::math::spatial::{Blocks, Twist, Wrench, dot, matrix};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
-use rapier3d::na::{Matrix3, Vector3};
+use rapier3d::na::Vector3;
 use std::fmt::{Debug, Formatter};
 use std::sync::Arc;
 
@@ -213,17 +213,7 @@ fn of_force<T: Scalar>(force: &Wrench<T>, v: &Twist<T>) -> Blocks<T> {
     let together = (by_u + by_w).min(zero).select_lt(zero, both, zero) * per * per;
     let block = |f: &Vector3<T>, a: &Vector3<T>, g: &Vector3<T>, b: &Vector3<T>, along: T| {
         let e = |i: usize, j: usize| (f[i] * b[j] - a[i] * g[j]) * per + a[i] * b[j] * along;
-        Matrix3::new(
-            e(0, 0),
-            e(0, 1),
-            e(0, 2),
-            e(1, 0),
-            e(1, 1),
-            e(1, 2),
-            e(2, 0),
-            e(2, 1),
-            e(2, 2),
-        )
+        matrix(e)
     };
     let (f, t) = (&across.force, &across.torque);
     Blocks {

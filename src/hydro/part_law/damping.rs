@@ -2,7 +2,7 @@
 
 use super::place::{PartPlace, moved, velocity_at};
 use crate::error::Error;
-use crate::math::spatial::{Blocks, Twist};
+use crate::math::spatial::{Blocks, Twist, matrix};
 use crate::math::{Scalar, scalar_struct};
 use rapier3d::na::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -121,17 +121,7 @@ impl<T: Scalar> DampingConstants<T> {
         let (ru, rw) = (root(u), root(w));
         let block = |l: &Matrix3<T>, q: &Matrix3<T>, a: &Vector3<T>, b: &Vector3<T>| {
             let e = |i: usize, j: usize| (l[(i, j)] + q[(i, j)] * a[i] * b[j]) * -factor;
-            let m = Matrix3::new(
-                e(0, 0),
-                e(0, 1),
-                e(0, 2),
-                e(1, 0),
-                e(1, 1),
-                e(1, 2),
-                e(2, 0),
-                e(2, 1),
-                e(2, 2),
-            );
+            let m = matrix(e);
             place.matrix_out(&m)
         };
         let own = Blocks {
