@@ -78,6 +78,7 @@ mod error;
 mod file;
 pub mod flow;
 mod fluid;
+pub mod free_surface;
 pub mod geometry;
 mod hydro;
 mod interning;
@@ -100,8 +101,8 @@ pub use hydro::viscous::{
     Bounds, Coefficient, ForceFactors, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw,
 };
 pub use hydro::{
-    Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, HydroProperties, PartLaw,
-    PartMotion, Planform, PolarRow, PolarTable, StokesResistance,
+    Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, Hull, HydroProperties, PartLaw,
+    PartMotion, Planform, PolarRow, PolarTable, StokesResistance, Submerged, Waterplane,
 };
 pub use rapier3d;
 

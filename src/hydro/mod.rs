@@ -10,6 +10,7 @@ mod check;
 mod ellipsoid;
 #[cfg(feature = "serde-serialize")]
 mod file;
+mod hull;
 pub(crate) mod part_law;
 mod planform;
 mod properties;
@@ -21,6 +22,7 @@ pub use accuracy::Accuracy;
 pub use added_mass::AddedMass;
 pub use bluff_shape::BluffShape;
 pub use ellipsoid::StokesResistance;
+pub use hull::{Hull, Submerged, Waterplane};
 pub use part_law::{CustomLaw, Damping, DragBox, PartLaw, PartMotion, PolarRow, PolarTable};
 pub use planform::Planform;
 pub use properties::HydroProperties;

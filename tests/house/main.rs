@@ -13,7 +13,7 @@ use std::path::Path;
 const LAYERS: &[&[&str]] = &[
     &["error"],
     &["math", "file", "fluid", "preset"],
-    &["geometry", "flow", "reduced"],
+    &["geometry", "flow", "free_surface", "reduced"],
     &["hydro", "turbulence"],
     &["body"],
     &["dynamics"],

@@ -1,0 +1,61 @@
+//! The surface between two fluids, such as water and air: where it is, and how the fluid below it moves with it.
+//!
+//! # Axes
+//! A surface is given in *level axes*: y up, x and z level, the origin at the level of the fluid at rest. In a world
+//! whose up is y they are the world's axes, moved to the level; where up is elsewhere, y is turned to it along the
+//! shortest way.
+
+use rapier3d::na::Vector3;
+
+/// A free surface at one place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elevation {
+    /// Height above the level of the fluid at rest, m.
+    pub height: f64,
+    /// How fast the height grows along x and z.
+    pub slope: [f64; 2],
+}
+
+/// A free surface: the trait that users implement for one of their own. Lengths in m, times in s, level axes.
+pub trait FreeSurface: Send + Sync {
+    /// The surface over or under a place of the level.
+    fn elevation(&self, x: f64, z: f64, time: f64) -> Elevation;
+
+    /// Velocity of the lower fluid that belongs to the surface's motion, at a point at most as high as the surface.
+    /// Zero unless implemented: then the surface pushes bodies up and down by their buoyancy alone.
+    fn velocity(&self, _point: &Vector3<f64>, _time: f64) -> Vector3<f64> {
+        Vector3::zeros()
+    }
+
+    /// A bound on the height above and below the level. Bodies beyond it are not looked at.
+    fn highest(&self) -> f64;
+
+    /// Length over which the surface bends: the shortest wave that counts. A body longer than a quarter of it is cut
+    /// corner by corner, a smaller one by the plane that touches the surface there.
+    fn bend(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Whether the surface never moves and its fluid rests, so that what floats on it may sleep.
+    fn is_still(&self) -> bool {
+        false
+    }
+}
+
+/// Level and at rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Level;
+
+impl FreeSurface for Level {
+    fn elevation(&self, _x: f64, _z: f64, _time: f64) -> Elevation {
+        Elevation::default()
+    }
+
+    fn highest(&self) -> f64 {
+        0.0
+    }
+
+    fn is_still(&self) -> bool {
+        true
+    }
+}
