@@ -83,6 +83,7 @@ pub mod geometry;
 mod hydro;
 mod interning;
 mod math;
+mod medium;
 pub mod motion;
 pub mod playback;
 pub mod preset;
@@ -104,6 +105,7 @@ pub use hydro::{
     Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, Hull, HydroProperties, PartLaw,
     PartMotion, Planform, PolarRow, PolarTable, StokesResistance, Submerged, Waterplane,
 };
+pub use medium::{Layer, Medium};
 pub use rapier3d;
 
 /// The examples in the README run as tests.

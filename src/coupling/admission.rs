@@ -6,7 +6,7 @@ use super::environment::Environment;
 use super::rapier_sets::RapierSets;
 use super::registry::{Registry, SWEEP};
 use super::saved_properties::{Difference, SavedProperties, is_immersed};
-use super::shared_constants::ConstantsTable;
+use super::shared_constants::{ConstantsTable, in_layer};
 use super::warning::{Warning, Warnings};
 use crate::body::from_rapier::CoreMass;
 use crate::error::Error;
@@ -55,11 +55,13 @@ pub(super) fn renew_constants_of(
     let Some(body) = registry.description(state) else {
         return Ok(());
     };
-    let (description, fluid) = (state.description, &environment.fluid);
+    let (description, medium) = (state.description, &environment.medium);
     let used = || registry.used_constants();
-    let found = constants.intern(description, body, &saved.dry, fluid, used)?;
+    let found = constants.intern(description, body, &saved.dry, medium, used)?;
     if let Some(state) = registry.at_mut(index) {
-        state.constants = found;
+        // In the layer that it was in, if the medium has that one.
+        let layer = usize::from(state.layer).min(medium.layers().len() - 1);
+        state.constants = in_layer(found, layer);
     }
     Ok(())
 }
@@ -254,12 +256,15 @@ impl Admission<'_> {
         let constants = match equal {
             Some(last) if last.handle != handle => last.constants,
             _ => {
-                let fluid = &self.environment.fluid;
+                let medium = &self.environment.medium;
                 let used = || self.registry.used_constants();
                 self.constants
-                    .intern(description, body, &dry, fluid, used)?
+                    .intern(description, body, &dry, medium, used)?
             }
         };
+        let place = sets.bodies.get(handle).map(RigidBody::center_of_mass);
+        let layer = self.environment.layer_at(place.unwrap_or_default());
+        let constants = in_layer(constants, layer);
         let Some(state) = self.registry.at_mut(index) else {
             return Ok(());
         };
@@ -271,6 +276,7 @@ impl Admission<'_> {
         state.left = None;
         state.refused = None;
         state.constants = constants;
+        state.layer = layer as u8;
         state.outdated = false;
         state.described_anew = false;
         // What was integrated belonged to other constants; rapier's velocities are what is left of it.
@@ -416,7 +422,9 @@ impl Admission<'_> {
 
     /// Kinetic energy of the turbulence around a body, m²/s²; zero where it is no number.
     fn turbulent_energy(&self, state: &BodyState, body: &RigidBody) -> Real {
-        let Some(layer) = &self.environment.turbulence else {
+        let layers = self.environment.medium.layers();
+        let layer = layers.get(usize::from(state.layer));
+        let Some(layer) = layer.and_then(|layer| layer.turbulence.as_ref()) else {
             return 0.0;
         };
         let time = self.environment.time;
@@ -445,12 +453,14 @@ impl Admission<'_> {
         ) else {
             return false;
         };
-        let now = self.environment.mean_flow(body.center_of_mass()).velocity;
+        let layer = usize::from(state.layer);
+        let now = self.environment.mean_flow(layer, body.center_of_mass());
+        let now = now.velocity;
         let speeds = (now - before).length() * (now.length() + before.length());
         let fluctuations = (turbulent_energy - flight.turbulent_energy).abs() * (2.0 / 3.0);
         let area = description.hydro.planform.area as Real;
-        let pressure = 0.5 * self.environment.fluid.density() * area * (speeds + fluctuations);
         let c = &shared.constants;
+        let pressure = 0.5 * c.density as Real * area * (speeds + fluctuations);
         let weight = (c.dry.mass - c.displaced_mass).abs() as Real * gravity.length();
         pressure > WAKE_SHARE * weight
     }

@@ -32,6 +32,8 @@ pub(super) struct BodyState {
     /// made again when a snapshot is loaded.
     #[cfg_attr(feature = "serde-serialize", serde(skip, default = "none"))]
     pub constants: u32,
+    /// The layer of the medium whose constants they are.
+    pub layer: u8,
     /// Whether rapier's body is as another description or fluid wanted it.
     pub outdated: bool,
     /// Whether the user has described the body anew since rapier's body was last read: a shape that has

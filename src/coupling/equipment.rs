@@ -92,7 +92,7 @@ impl Equipment {
         let linear = back * to_f64(body.linvel() - fluid_velocity);
         let angular = back * to_f64(body.angvel());
         let (mut force, mut torque) = (Vector3::zeros(), Vector3::zeros());
-        for (thruster, drive) in shared.thrusters().iter().zip(&self.drives) {
+        for (thruster, drive) in shared.thrusters.iter().zip(&self.drives) {
             let arm = thruster.point - c.dry.center;
             let speed = (linear + angular.cross(&arm)).dot(&thruster.direction);
             let [thrust, turning] = thruster.action(*drive, speed, c.density);

@@ -17,6 +17,7 @@ use crate::dynamics::{ForceBreakdown, Integrator};
 use crate::flow::Flow;
 use crate::fluid::Fluid;
 use crate::hydro::viscous::ForceFactors;
+use crate::medium::{Layer, Medium};
 use crate::motion::ControlSeries;
 use crate::turbulence::TurbulentLayer;
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
@@ -110,19 +111,21 @@ pub struct Immersion {
 }
 
 impl Immersion {
-    /// An empty set in a fluid at rest.
-    pub fn new(fluid: Fluid) -> Self {
-        Self {
+    /// An empty set in a [`Fluid`] at rest, or in another [`Medium`].
+    pub fn new(medium: impl Into<Medium>) -> Self {
+        let mut immersion = Self {
             integrator: Integrator::default(),
             body_changes: BodyChanges::default(),
             enabled: true,
-            environment: Environment::new(fluid),
+            environment: Environment::new(medium.into()),
             registry: Registry::default(),
             series: SeriesTable::default(),
             warnings: Warnings::default(),
             constants: ConstantsTable::default(),
             workspace: Workspace::default(),
-        }
+        };
+        immersion.warn_of_medium();
+        immersion
     }
 
     /// Immerses a body from the next step on. Equal descriptions are stored once.
@@ -254,15 +257,29 @@ impl Immersion {
         }
     }
 
-    /// The fluid.
+    /// The fluid; of several layers the uppermost.
     pub fn fluid(&self) -> &Fluid {
-        &self.environment.fluid
+        &self.environment.medium.layers()[0].fluid
     }
 
-    /// Changes the fluid, from the next step on. Bodies go on with the velocities that they have, and
+    /// What the bodies are in.
+    pub fn medium(&self) -> &Medium {
+        &self.environment.medium
+    }
+
+    /// Puts all bodies into another fluid, from the next step on, with the flow and turbulence that there are; of
+    /// several layers those of the uppermost. Bodies go on with the velocities that they have, and
     /// sleeping ones wake. [`Immersion::forces`] are those in the new fluid at once.
     pub fn set_fluid(&mut self, fluid: Fluid) {
-        self.environment.fluid = fluid;
+        let uppermost = self.environment.medium.layers()[0].clone();
+        self.set_medium(Layer { fluid, ..uppermost });
+    }
+
+    /// Puts all bodies into another medium, with its flows and its turbulence, from the next step on; the rest as
+    /// [`Immersion::set_fluid`].
+    pub fn set_medium(&mut self, medium: impl Into<Medium>) {
+        self.environment.set_medium(medium.into());
+        self.warn_of_medium();
         self.constants.clear();
         self.registry.forget_constants();
         // What cannot be immersed is refused, and reported, with the next step.
@@ -270,7 +287,7 @@ impl Immersion {
             admission::renew_constants(&mut self.registry, &mut self.constants, &self.environment);
     }
 
-    /// Sets the velocity field of the fluid.
+    /// Sets the velocity field of the fluid; of several layers that of the uppermost: the wind.
     ///
     /// ```
     /// use rapier3d_immersed::flow::Uniform;
@@ -280,17 +297,41 @@ impl Immersion {
     /// immersion.set_flow(Uniform::new(2.0, 0.0, 0.0)); // a breeze along +x
     /// ```
     pub fn set_flow(&mut self, flow: impl Flow + 'static) {
-        self.environment.set_flow(Arc::new(flow));
+        self.set_flow_of(0, flow);
     }
 
-    /// Lets the fluid rest, but for its turbulence: the same as a flow that is zero everywhere.
+    /// Sets the velocity field of one layer of the medium, counted from the uppermost: that of layer 1 is the current
+    /// of the water under air. A layer that the medium has not is no error.
+    pub fn set_flow_of(&mut self, layer: usize, flow: impl Flow + 'static) {
+        self.environment.set_flow(layer, Arc::new(flow));
+    }
+
+    /// Lets all fluids rest, but for their turbulence and the waves: the same as a flow that is zero everywhere.
     pub fn clear_flow(&mut self) {
-        if self.environment.flow.is_some() {
-            self.environment.come_to_rest();
+        for layer in 0..self.environment.medium.layers().len() {
+            if self.environment.medium.layers()[layer].flow.is_some() {
+                self.environment.come_to_rest(layer);
+            }
         }
     }
 
-    /// Adds turbulence to the mean flow. Its fluctuations differ from body to body.
+    /// Warns of a medium that would not stay as it is.
+    fn warn_of_medium(&mut self) {
+        let fluids: Vec<_> = self.environment.medium.fluids().copied().collect();
+        for (above, pair) in fluids.windows(2).enumerate() {
+            let [over, under] = [pair[0].density(), pair[1].density()];
+            if over > under {
+                self.warnings.push_once(Warning::LighterBelow {
+                    layer: above + 1,
+                    density: under,
+                    above: over,
+                });
+            }
+        }
+    }
+
+    /// Adds turbulence to the mean flow; of several layers to that of the uppermost. Its fluctuations differ from body to
+    /// body.
     ///
     /// A [`Turbulence`](crate::turbulence::Turbulence) acts as the fluctuating velocity of the fluid
     /// that a body sees, with seed 0; [`TurbulentLayer`] chooses otherwise.
@@ -306,17 +347,28 @@ impl Immersion {
     /// }));
     /// ```
     pub fn set_turbulence(&mut self, turbulence: impl Into<TurbulentLayer>) {
-        self.environment.turbulence = Some(turbulence.into());
+        self.set_turbulence_of(0, turbulence);
     }
 
-    /// Ends the turbulence.
+    /// Adds turbulence to the flow of one layer of the medium, counted from the uppermost. A layer that the medium has
+    /// not is no error.
+    pub fn set_turbulence_of(&mut self, layer: usize, turbulence: impl Into<TurbulentLayer>) {
+        if let Some(own) = self.environment.medium.layers_mut().get_mut(layer) {
+            own.turbulence = Some(turbulence.into());
+        }
+    }
+
+    /// Ends the turbulence of all layers.
     pub fn clear_turbulence(&mut self) {
-        self.environment.turbulence = None;
         for state in self.registry.iter_mut() {
             state.flight.turbulence = Default::default();
         }
-        if self.environment.flow.is_none() {
-            self.environment.come_to_rest();
+        for layer in 0..self.environment.medium.layers().len() {
+            let own = &mut self.environment.medium.layers_mut()[layer];
+            let ended = own.turbulence.take().is_some();
+            if own.flow.is_none() && ended {
+                self.environment.come_to_rest(layer);
+            }
         }
     }
 

@@ -9,6 +9,7 @@ use crate::dynamics::forces::Instant;
 use crate::dynamics::part_constants::PartConstants;
 use crate::dynamics::parts::PartNow;
 use crate::math::spatial::Twist;
+use crate::medium::Layer;
 use crate::math::{to_f64, to_quaternion, to_real, vector};
 use rapier3d::dynamics::RigidBody;
 use rapier3d::math::{Real, Vector};
@@ -26,7 +27,8 @@ pub(super) fn forces(
     let c = &constants.get(state.constants)?.constants;
     let axes = UnitQuaternion::from_rotation_matrix(&c.axes);
     let attitude = to_quaternion(*body.rotation()) * axes;
-    let mean = environment.mean_flow(body.center_of_mass());
+    let layer = usize::from(state.layer);
+    let mean = environment.mean_flow(layer, body.center_of_mass());
     let plate_axes = |row| to_f64(vector(row));
     let motion = &state.flight.motion;
     let instant = |fluid_velocity: Vector, fluctuation: Real| {
@@ -41,7 +43,7 @@ pub(super) fn forces(
                 .and_then(|known| known.parts.get(i))
                 .unwrap_or(&none);
             let arm = attitude * (constants.place.position * c.length);
-            let seen = environment.mean_flow(body.center_of_mass() + to_real(arm));
+            let seen = environment.mean_flow(layer, body.center_of_mass() + to_real(arm));
             let velocity = seen.velocity + part.turbulence.fluctuation * fluctuation;
             PartNow {
                 velocity: to_f64(velocity - fluid_velocity),
@@ -79,7 +81,8 @@ pub(super) fn forces(
         forces.buoyancy = forces.buoyancy + equipment.buoyancy;
     }
     let fluctuation = state.flight.turbulence.fluctuation;
-    if environment.turbulence.is_some() && fluctuation != Vector::ZERO {
+    let turbulent = |layer: &Layer| layer.turbulence.is_some();
+    if environment.medium.layers().get(layer).is_some_and(turbulent) && fluctuation != Vector::ZERO {
         let fluctuating = forces_in(mean.velocity + fluctuation, 1.0);
         forces.turbulence = fluctuating.viscous() - forces.viscous();
     }

@@ -162,6 +162,7 @@ impl Registry {
             saved: None,
             left: None,
             constants: NONE,
+            layer: 0,
             outdated: false,
             described_anew: false,
             waits: false,

@@ -13,11 +13,13 @@ use crate::hydro::viscous::{LawKind, PreparedLaw};
 use crate::interning::{Content, Interned};
 use crate::math::spatial::transform;
 use crate::math::{Lanes, Scalar, scalar_struct, to_f64, to_quaternion, to_real, to_rotation};
+use crate::medium::Medium;
 use fearless_simd::Simd;
 use rapier3d::dynamics::MassProperties;
 use rapier3d::math::{Rotation, Vector};
 use rapier3d::na::{Matrix3, Matrix6, UnitQuaternion, Vector3};
 use std::hash::{DefaultHasher, Hasher};
+use std::sync::Arc;
 
 /// What a step needs of a body's constants: `f32`, or [`Lanes`] of it.
 #[derive(Clone, Debug)]
@@ -144,9 +146,8 @@ impl Route {
 /// One description with one set of mass properties in one fluid.
 #[derive(Clone, Debug)]
 pub(super) struct SharedConstants {
-    /// Index of the description, and the description.
-    description: u32,
-    body: ImmersedBody,
+    /// What pushes it by itself.
+    pub thrusters: Arc<[Thruster]>,
     pub constants: BodyConstants,
     pub step: StepConstants<f32>,
     /// Plate axes to the body's frame.
@@ -172,9 +173,9 @@ pub(super) struct SharedConstants {
 impl SharedConstants {
     /// # Errors
     /// Those of [`BodyConstants::new`]; [`Error::BeyondSinglePrecision`].
-    pub fn new(
-        description: u32,
+    fn new(
         body: &ImmersedBody,
+        thrusters: &Arc<[Thruster]>,
         dry: &DryMass,
         fluid: &Fluid,
     ) -> Result<Self, Error> {
@@ -220,8 +221,7 @@ impl SharedConstants {
         }
         Ok(Self {
             free: wet(&constants, dry.mass).to_mass_properties(),
-            description,
-            body: body.clone(),
+            thrusters: thrusters.clone(),
             parts,
             coupled_mass,
             step,
@@ -234,11 +234,6 @@ impl SharedConstants {
             coupled: coupling > 1e-6 * mass * length,
             constants,
         })
-    }
-
-    /// The thrusters of the body.
-    pub fn thrusters(&self) -> &[Thruster] {
-        &self.body.thrusters
     }
 
     /// The 6×6 mass of body and fluid about the center of mass, body axes.
@@ -277,12 +272,6 @@ impl SharedConstants {
         let theirs = inertia(rapier);
         to_real(rotation * (theirs * acceleration))
     }
-
-    /// Whether a body of this description and mass would share them. An index may have been given to
-    /// another description since, so that the description itself is compared, too.
-    fn is(&self, description: u32, body: &ImmersedBody, dry: &DryMass) -> bool {
-        self.description == description && self.constants.dry == *dry && self.body == *body
-    }
 }
 
 fn wet(constants: &BodyConstants, mass: f64) -> DryMass {
@@ -294,9 +283,50 @@ fn wet(constants: &BodyConstants, mass: f64) -> DryMass {
     }
 }
 
-impl Content for SharedConstants {
+/// One description with one set of mass properties in each fluid of a medium.
+#[derive(Clone, Debug)]
+struct InMedium {
+    /// Index of the description, and the description.
+    description: u32,
+    body: ImmersedBody,
+    /// In the uppermost fluid, and in the others.
+    first: SharedConstants,
+    others: Vec<SharedConstants>,
+}
+
+impl InMedium {
+    fn new(
+        description: u32,
+        body: &ImmersedBody,
+        dry: &DryMass,
+        medium: &Medium,
+    ) -> Result<Self, Error> {
+        let thrusters = body.thrusters.as_slice().into();
+        let mut in_fluids = medium
+            .fluids()
+            .map(|fluid| SharedConstants::new(body, &thrusters, dry, fluid));
+        let first = in_fluids.next();
+        Ok(Self {
+            description,
+            body: body.clone(),
+            // A medium has a fluid.
+            first: first.unwrap_or(Err(Error::UnphysicalAddedMass))?,
+            others: in_fluids.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// Whether a body of this description and mass would share them. An index may have been given to
+    /// another description since, so that the description itself is compared, too.
+    fn is(&self, description: u32, body: &ImmersedBody, dry: &DryMass) -> bool {
+        self.description == description
+            && self.first.constants.dry == *dry
+            && self.body == *body
+    }
+}
+
+impl Content for InMedium {
     fn hash_content(&self, hasher: &mut DefaultHasher) {
-        hash_key(self.description, &self.constants.dry, hasher);
+        hash_key(self.description, &self.first.constants.dry, hasher);
     }
 }
 
@@ -305,17 +335,32 @@ fn hash_key(description: u32, dry: &DryMass, hasher: &mut DefaultHasher) {
     dry.hash_content(hasher);
 }
 
-/// The constants of all bodies that are in the fluid, equal ones once.
+/// Bits of an index that tell bodies apart; those above are the layer of the medium.
+const PLACE_BITS: u32 = 28;
+
+/// The layer of the medium whose constants an index is that of.
+#[inline(always)]
+pub(super) fn layer_of(index: u32) -> usize {
+    (index >> PLACE_BITS) as usize
+}
+
+/// The index of the constants of the same body in another layer.
+#[inline(always)]
+pub(super) fn in_layer(index: u32, layer: usize) -> u32 {
+    index & ((1 << PLACE_BITS) - 1) | (layer as u32) << PLACE_BITS
+}
+
+/// The constants of all bodies that are in the medium, equal ones once.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ConstantsTable {
-    entries: Interned<SharedConstants>,
+    entries: Interned<InMedium>,
     /// Whether one of them drags much fluid along.
     pub heavy_fluid: bool,
 }
 
 impl ConstantsTable {
-    /// Index of the constants of a body with this description and mass, which are made if there are
-    /// none yet. `used` gives the indices that are in use.
+    /// Index of the constants of a body with this description and mass in the uppermost fluid, which are made if
+    /// there are none yet. `used` gives the indices that are in use.
     ///
     /// # Errors
     /// Those of [`SharedConstants::new`].
@@ -324,27 +369,34 @@ impl ConstantsTable {
         description: u32,
         body: &ImmersedBody,
         dry: &DryMass,
-        fluid: &Fluid,
+        medium: &Medium,
         used: impl FnOnce() -> U,
     ) -> Result<u32, Error> {
         let mut hasher = DefaultHasher::new();
         hash_key(description, dry, &mut hasher);
-        let is = |known: &SharedConstants| known.is(description, body, dry);
+        let is = |known: &InMedium| known.is(description, body, dry);
         if let Some(place) = self.entries.find(hasher.finish(), is) {
             return Ok(place);
         }
-        let constants = SharedConstants::new(description, body, dry, fluid)?;
-        self.heavy_fluid |= constants.heavy_fluid;
-        Ok(self.entries.add(constants, used))
+        let constants = InMedium::new(description, body, dry, medium)?;
+        let mut all = std::iter::once(&constants.first).chain(&constants.others);
+        self.heavy_fluid |= all.any(|shared| shared.heavy_fluid);
+        let places = || used().into_iter().map(|index| in_layer(index, 0));
+        Ok(self.entries.add(constants, places))
     }
 
-    /// The constants at an index that [`ConstantsTable::intern`] has returned, as long as it is in use.
+    /// The constants at an index that [`ConstantsTable::intern`] has returned, or at that of another layer, as long
+    /// as it is in use.
     #[inline(always)]
     pub fn get(&self, index: u32) -> Option<&SharedConstants> {
-        self.entries.get(index)
+        let entry = self.entries.get(in_layer(index, 0))?;
+        match layer_of(index) {
+            0 => Some(&entry.first),
+            layer => entry.others.get(layer - 1),
+        }
     }
 
-    /// Forgets all, as when the fluid has changed.
+    /// Forgets all, as when the medium has changed.
     pub fn clear(&mut self) {
         *self = Self::default();
     }

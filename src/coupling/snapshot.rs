@@ -19,7 +19,7 @@ use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Version of what is written. Others are refused.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// What is written, in this order.
 #[derive(Serialize)]
@@ -85,6 +85,7 @@ impl Read {
         }
         Error::check_not_negative("time of the immersion", self.environment.time)?;
         check_vectors("gravity", [self.environment.gravity])?;
+        self.environment.medium.check()?;
         let mut registry = self.registry;
         registry.restore()?;
         for series in self.series.iter() {

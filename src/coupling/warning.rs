@@ -70,6 +70,16 @@ pub enum Warning {
         /// The body.
         body: RigidBodyHandle,
     },
+    /// A layer of the medium is lighter than the one above it: in nature they would change places, and here what floats
+    /// between them is not held.
+    LighterBelow {
+        /// Index of the lighter layer.
+        layer: usize,
+        /// Its density, kg/m³.
+        density: f32,
+        /// Density of the layer above, kg/m³.
+        above: f32,
+    },
     /// A step was begun ([`Immersion::before_step`](crate::Immersion::before_step)) before the last one was
     /// finished ([`Immersion::after_step`](crate::Immersion::after_step)): contacts were not corrected.
     UnfinishedStep,
@@ -107,6 +117,14 @@ impl std::fmt::Display for Warning {
             Self::ImmersedTwice { body } => write!(
                 f,
                 "{body:?} is not immersed: another immersion holds it, or did not give it back"
+            ),
+            Self::LighterBelow {
+                layer,
+                density,
+                above,
+            } => write!(
+                f,
+                "layer {layer} of the medium, of {density} kg/m³, is lighter than the one above it, of {above} kg/m³"
             ),
             Self::UnfinishedStep => write!(
                 f,

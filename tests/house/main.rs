@@ -15,7 +15,7 @@ const LAYERS: &[&[&str]] = &[
     &["math", "file", "fluid", "preset"],
     &["geometry", "flow", "free_surface", "reduced"],
     &["hydro", "turbulence"],
-    &["body"],
+    &["body", "medium"],
     &["dynamics"],
     &["motion"],
     &["interning"],

@@ -5,14 +5,14 @@ use super::prepare::{self, Preparation};
 use super::sample_fluid::sample_fluid;
 use super::stage_data::StepContext;
 use super::substep_matching::SubstepScheme;
-use super::workspace::{Batched, Workspace};
+use super::workspace::{Batched, Bin, Workspace};
 use super::write_back;
 use super::{contact_mass, energy_budget};
 use crate::coupling::control::SeriesTable;
 use crate::coupling::environment::Environment;
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
-use crate::coupling::shared_constants::{ConstantsTable, Route};
+use crate::coupling::shared_constants::ConstantsTable;
 use crate::dynamics::Integrator;
 use rapier3d::dynamics::RigidBodyHandle;
 
@@ -33,6 +33,8 @@ pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierS
         return;
     };
     parts.workspace.forget_bodies();
+    let layers = parts.environment.medium.layers().len();
+    parts.workspace.prepare_batches(layers);
     if context.joints {
         parts.workspace.jointed.systems.find(sets, parts.registry);
     } else {
@@ -61,8 +63,8 @@ pub(in crate::coupling) fn before_step(parts: &mut StepParts, sets: &mut RapierS
             move_body(handle, parts, sets, &context);
         }
     }
-    for route in Route::all() {
-        run_stages(route, parts, sets, &context);
+    for bin in Bin::all(parts.environment.medium.layers().len()) {
+        run_stages(bin, parts, sets, &context);
     }
     newcomers.clear();
     parts.registry.newcomers = newcomers;
@@ -87,8 +89,8 @@ pub(in crate::coupling) fn move_newcomers(parts: &mut StepParts, sets: &mut Rapi
             move_body(handle, parts, sets, &context);
         }
     }
-    for route in Route::all() {
-        run_stages(route, parts, sets, &context);
+    for bin in Bin::all(parts.environment.medium.layers().len()) {
+        run_stages(bin, parts, sets, &context);
     }
 }
 
@@ -128,22 +130,23 @@ fn move_body(
         batches: &mut parts.workspace.batches,
         systems: &mut parts.workspace.jointed.systems,
     };
-    if let Some(route) = prepare::prepare(handle, sets, &mut preparation)
-        && parts.workspace.batches[route.index()].is_full()
+    if let Some(bin) = prepare::prepare(handle, sets, &mut preparation)
+        && parts.workspace.batches[bin.index()].is_full()
     {
-        run_stages(route, parts, sets, context);
+        run_stages(bin, parts, sets, context);
     }
 }
 
 /// Moves the bodies of a batch, which is empty thereafter.
-fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, context: &StepContext) {
+fn run_stages(bin: Bin, parts: &mut StepParts, sets: &mut RapierSets, context: &StepContext) {
     let workspace = &mut *parts.workspace;
-    let batch = &mut workspace.batches[route.index()];
+    let batch = &mut workspace.batches[bin.index()];
     if batch.inputs.is_empty() {
         return;
     }
     sample_fluid(
         parts.environment,
+        bin.layer,
         parts.constants,
         context,
         batch,
@@ -158,7 +161,7 @@ fn run_stages(route: Route, parts: &mut StepParts, sets: &mut RapierSets, contex
         parts: &batch.parts,
         context,
     };
-    integrate(&batch.inputs, &batch.flows, &mut outputs, route, batched);
+    integrate(&batch.inputs, &batch.flows, &mut outputs, bin.route, batched);
     batch.outputs = outputs;
     let mut to = write_back::Destination {
         constants: parts.constants,

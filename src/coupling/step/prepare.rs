@@ -3,7 +3,7 @@
 use super::contact_mass::CloseBodies;
 use super::jointed_systems::JointedSystems;
 use super::stage_data::{Disturbance, JointAction, PartRow, SeenFlow, StepContext, StepInput};
-use super::workspace::Batch;
+use super::workspace::{Batch, Bin};
 use super::{constraint_impulse, contact_mass, friction, held_motion};
 use crate::coupling::body_state::{FlightState, IntegratorState, NONE};
 use crate::coupling::control::SeriesTable;
@@ -11,7 +11,7 @@ use crate::coupling::environment::Environment;
 use crate::coupling::equipment::{Equipment, PartState};
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
-use crate::coupling::shared_constants::{ConstantsTable, Route, SharedConstants};
+use crate::coupling::shared_constants::{ConstantsTable, SharedConstants, layer_of};
 use crate::math::row;
 use rapier3d::dynamics::{LockedAxes, RigidBody, RigidBodyHandle};
 use rapier3d::math::{Real, Rotation, Vector};
@@ -38,7 +38,7 @@ pub(super) struct Preparation<'a> {
     pub registry: &'a mut Registry,
     pub moved: &'a mut [u8],
     pub changed: &'a mut Vec<u32>,
-    pub batches: &'a mut [Batch; Route::COUNT],
+    pub batches: &'a mut [Batch],
     pub systems: &'a mut JointedSystems,
 }
 
@@ -49,7 +49,7 @@ pub(super) fn prepare(
     handle: RigidBodyHandle,
     sets: &RapierSets,
     to: &mut Preparation,
-) -> Option<Route> {
+) -> Option<Bin> {
     let index = to.registry.index(handle)?;
     let body = sets.bodies.get(handle)?;
     if !body.is_dynamic() || body.is_sleeping() || !body.is_enabled() {
@@ -185,7 +185,12 @@ pub(super) fn prepare(
     if let Some(moved) = to.moved.get_mut(index) {
         *moved = 1;
     }
-    let batch = &mut to.batches[shared.route.index()];
+    let layer = layer_of(state.constants);
+    let bin = Bin {
+        layer,
+        route: shared.route,
+    };
+    let batch = to.batches.get_mut(bin.index())?;
     let disturbance = if undisturbed {
         NONE
     } else {
@@ -198,11 +203,14 @@ pub(super) fn prepare(
         });
         batch.disturbances.len() as u32 - 1
     };
-    if to.environment.moves() {
+    let moves = to.environment.moves(layer);
+    let layers = to.environment.medium.layers();
+    let turbulent = layers.get(layer).is_some_and(|own| own.turbulence.is_some());
+    if moves {
         batch.points.push(body.center_of_mass());
         batch.flows.push(SeenFlow::before(flight));
     }
-    if to.environment.turbulence.is_some() {
+    if turbulent {
         batch.turbulence.push(flight.turbulence);
     }
     let first_part = batch.parts.len() as u32;
@@ -214,7 +222,7 @@ pub(super) fn prepare(
             equipment,
             body.center_of_mass(),
             rapier_attitude,
-            to.environment,
+            [moves, turbulent],
             batch,
         );
     }
@@ -242,7 +250,7 @@ pub(super) fn prepare(
         rapier_linear: row(linear),
         rapier_angular: row(angular),
     });
-    Some(shared.route)
+    Some(bin)
 }
 
 /// Adds the parts of a body to its batch. There are as many as its description has.
@@ -251,7 +259,7 @@ fn add_parts(
     equipment: &Equipment,
     center: Vector,
     attitude: Rotation,
-    environment: &Environment,
+    [moves, turbulent]: [bool; 2],
     batch: &mut Batch,
 ) {
     let length = shared.constants.length as Real;
@@ -270,13 +278,13 @@ fn add_parts(
                 0.0,
             ],
         });
-        if environment.moves() {
+        if moves {
             let [x, y, z] = constants.place.position.into();
             batch
                 .part_points
                 .push(center + attitude * (Vector::new(x, y, z) * length));
         }
-        if environment.turbulence.is_some() {
+        if turbulent {
             batch.part_turbulence.push(part.turbulence);
         }
     }

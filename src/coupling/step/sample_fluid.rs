@@ -20,6 +20,7 @@ const STRAIN_ENDS: Real = 30.0;
 /// added to `bad_flows`.
 pub(super) fn sample_fluid(
     environment: &Environment,
+    layer: usize,
     constants: &ConstantsTable,
     context: &StepContext,
     batch: &mut Batch,
@@ -42,11 +43,13 @@ pub(super) fn sample_fluid(
     }
     samples.clear();
     samples.resize(points.len(), FlowSample::default());
-    if let Some(flow) = &environment.flow {
-        flow.sample(points, environment.time, samples);
-    }
-    if let Some(flow) = &environment.flow {
-        let viscosity = environment.fluid.kinematic_viscosity();
+    let (medium, time) = (&environment.medium, environment.time);
+    let Some(own) = medium.layers().get(layer) else {
+        return;
+    };
+    medium.sample(layer, points, time, samples);
+    if let Some(flow) = &own.flow {
+        let viscosity = own.fluid.kinematic_viscosity();
         for ((input, point), sample) in inputs.iter().zip(points.iter()).zip(samples.iter_mut()) {
             let Some(shared) = constants.get(input.constants) else {
                 continue;
@@ -56,20 +59,18 @@ pub(super) fn sample_fluid(
             let speed = slip + sample.vorticity.length() * reach;
             let share = 1.0 - speed * (2.0 * reach) / (STRAIN_ENDS * viscosity);
             if share > 0.0 {
-                sample.strain = flow.strain_rate(*point, environment.time, reach) * share;
+                sample.strain = flow.strain_rate(*point, time, reach) * share;
             }
         }
     }
     part_samples.clear();
     part_samples.resize(part_points.len(), FlowSample::default());
-    if let Some(flow) = &environment.flow
-        && !part_points.is_empty()
-    {
-        flow.sample(part_points, environment.time, part_samples);
+    if !part_points.is_empty() {
+        medium.sample(layer, part_points, time, part_samples);
     }
-    if let Some(layer) = &environment.turbulence {
-        let turbulence = StepTurbulence::new(layer, environment, context.dt);
-        match layer.mode {
+    if let Some(turbulent) = &own.turbulence {
+        let turbulence = StepTurbulence::new(turbulent, &own.fluid, environment, context.dt);
+        match turbulent.mode {
             LangevinMode::FluidSeen => {
                 dispatch(Fluctuate {
                     turbulence: &turbulence,

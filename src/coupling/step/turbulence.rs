@@ -4,6 +4,7 @@ use super::stage_data::StepInput;
 use crate::coupling::environment::Environment;
 use crate::coupling::turbulence_memory::TurbulenceMemory;
 use crate::flow::FlowSample;
+use crate::fluid::Fluid;
 use crate::math::{Lanes, MOST_LANES, OnLanes, Row, row, vector};
 use crate::turbulence::{
     Eddies, LangevinMode, NoiseStream, SeenFluctuation, Turbulence, TurbulenceState,
@@ -64,8 +65,13 @@ impl Local {
 }
 
 impl<'a> StepTurbulence<'a> {
-    pub fn new(layer: &'a TurbulentLayer, environment: &Environment, dt: Real) -> Self {
-        let viscosity = environment.fluid.kinematic_viscosity();
+    pub fn new(
+        layer: &'a TurbulentLayer,
+        fluid: &Fluid,
+        environment: &Environment,
+        dt: Real,
+    ) -> Self {
+        let viscosity = fluid.kinematic_viscosity();
         let common = match &layer.source {
             Turbulence::Homogeneous(state) => Some(Local::new(*state, viscosity, dt)),
             _ => None,

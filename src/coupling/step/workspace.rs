@@ -86,8 +86,8 @@ impl<'a> Batched<'a> {
 /// What a step works in.
 #[derive(Clone, Default)]
 pub(in crate::coupling) struct Workspace {
-    /// Bodies that are about to be moved, by route.
-    pub batches: [Batch; Route::COUNT],
+    /// Bodies that are about to be moved, by layer and route: see [`Bin`].
+    pub batches: Vec<Batch>,
     pub close: CloseBodies,
     /// What the bodies had before the step: filled by `before_step`, emptied by `after_step`.
     pub saved_forces: Vec<SavedForces>,
@@ -105,7 +105,32 @@ pub(in crate::coupling) struct Workspace {
     pub bad_flows: Vec<RigidBodyHandle>,
 }
 
+/// Bodies of one layer of the medium that take the same route: they are moved together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::coupling) struct Bin {
+    pub layer: usize,
+    pub route: Route,
+}
+
+impl Bin {
+    /// All bins of a medium of so many layers.
+    pub fn all(layers: usize) -> impl Iterator<Item = Self> {
+        let of_layer = |layer| Route::all().map(move |route| Self { layer, route });
+        (0..layers).flat_map(of_layer)
+    }
+
+    /// Index of its batch.
+    pub fn index(self) -> usize {
+        self.layer * Route::COUNT + self.route.index()
+    }
+}
+
 impl Workspace {
+    /// Makes a batch for each bin of a medium of so many layers.
+    pub fn prepare_batches(&mut self, layers: usize) {
+        self.batches.resize_with(layers * Route::COUNT, Batch::default);
+    }
+
     /// Makes room for marking which of so many bodies a step moves.
     pub fn begin_marks(&mut self, bodies: usize) {
         std::mem::swap(&mut self.moved, &mut self.moved_before);
