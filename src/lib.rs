@@ -93,7 +93,7 @@ pub mod turbulence;
 
 pub use body::{Division, DryMass, Hinge, ImmersedBody, Part, Propeller, Thruster};
 pub use coupling::{BodyChanges, Immersion, OnContact, RapierSets, Warning};
-pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Integrator};
+pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Hydrostatics, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;
 #[cfg(feature = "bake")]

@@ -160,14 +160,15 @@ impl Medium {
     /// # Errors
     /// [`Error::OutOfRange`] if the depth is not below the tops of all others or not finite,
     /// [`Error::InvalidParameter`] if there is no free surface to count it from or no room for one more.
-    pub fn with_layer_below(
-        mut self,
-        depth: f64,
-        layer: impl Into<Layer>,
-    ) -> Result<Self, Error> {
+    pub fn with_layer_below(mut self, depth: f64, layer: impl Into<Layer>) -> Result<Self, Error> {
         let count = self.layers.len();
         let room = (2..Self::MOST_LAYERS).contains(&count);
-        Error::check("layers of a medium", count as f64, room, "2 to 14 before one more")?;
+        Error::check(
+            "layers of a medium",
+            count as f64,
+            room,
+            "2 to 14 before one more",
+        )?;
         let last = self.tops.last().copied().unwrap_or(0.0);
         let below = depth > last && depth.is_finite();
         Error::check("depth of a layer", depth, below, "below the layer before")?;
@@ -254,11 +255,18 @@ impl Medium {
         (0..self.layers.len()).all(|layer| !self.moves(layer))
     }
 
+    /// Whether there is a free surface, and a gravity that is off its up by more than 0.6°.
+    pub(crate) fn is_tilted(&self, gravity: Vector) -> bool {
+        let length = gravity.length();
+        self.has_surface() && length > 0.0 && gravity.dot(self.up) > -0.99995 * length
+    }
+
     /// Maps level axes to those of the world.
     pub(crate) fn axes(&self) -> Rotation3<f64> {
         let up = Vector3::new(self.up.x, self.up.y, self.up.z).map(f64::from);
         let half_turn = || Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
-        Rotation3::rotation_between(&Vector3::y(), &Unit::new_normalize(up)).unwrap_or_else(half_turn)
+        Rotation3::rotation_between(&Vector3::y(), &Unit::new_normalize(up))
+            .unwrap_or_else(half_turn)
     }
 
     /// Height of a point over the level, m.
@@ -297,6 +305,50 @@ impl Medium {
         // What is in the trough of a wave above the level is under the surface all the same.
         let under = self.tops.iter().rposition(|top| height < -top);
         under.unwrap_or(1).max(1)
+    }
+
+    /// The first and the last layer that a body within a radius of a point may be in, which moves up or down by at most
+    /// `way`, m.
+    #[inline(always)]
+    pub(crate) fn layers_within(
+        &self,
+        center: Vector,
+        radius: Real,
+        way: Real,
+        time: f64,
+    ) -> (usize, usize) {
+        let height = f64::from(self.height(center));
+        let reach = f64::from(radius + way);
+        let highest = self.surface.highest();
+        if height - reach > highest {
+            return (0, 0);
+        }
+        let below = |height: f64| {
+            let under = self.tops.iter().rposition(|top| height < -top);
+            under.unwrap_or(1).max(1)
+        };
+        let mut first = below(height + reach);
+        let last = below(height - reach);
+        if height + reach < -highest {
+            return (first, last);
+        }
+        if self.surface.is_still() {
+            return (usize::from(height + reach < 0.0).min(first), last);
+        }
+        // Close to a wave the surface at the place decides, with some room for its slope and its motion.
+        let at = self.to_level(&self.axes(), center);
+        let here = self.elevation(&at, time);
+        if 8.0 * f64::from(radius) < self.surface.bend() {
+            let [x, z] = here.slope;
+            let room = reach + f64::from(radius) * (1.0 + (x * x + z * z).sqrt());
+            if height - room > here.height {
+                return (0, 0);
+            }
+            first = usize::from(height + room < here.height).min(first);
+        } else {
+            first = 0;
+        }
+        (first, last)
     }
 
     /// The free surface over or under a point in level axes; level where the surface is no number.

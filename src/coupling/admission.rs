@@ -10,6 +10,7 @@ use super::shared_constants::{ConstantsTable, in_layer};
 use super::warning::{Warning, Warnings};
 use crate::body::from_rapier::CoreMass;
 use crate::error::Error;
+use crate::math::to_real;
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle};
 use rapier3d::math::{Real, Vector};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -264,6 +265,7 @@ impl Admission<'_> {
         };
         let place = sets.bodies.get(handle).map(RigidBody::center_of_mass);
         let layer = self.environment.layer_at(place.unwrap_or_default());
+        let layered = self.environment.medium.has_surface();
         let constants = in_layer(constants, layer);
         let Some(state) = self.registry.at_mut(index) else {
             return Ok(());
@@ -277,6 +279,7 @@ impl Admission<'_> {
         state.refused = None;
         state.constants = constants;
         state.layer = layer as u8;
+        state.crossing = layered.then(Default::default);
         state.outdated = false;
         state.described_anew = false;
         // What was integrated belonged to other constants; rapier's velocities are what is left of it.
@@ -314,6 +317,34 @@ impl Admission<'_> {
         }
         self.registry.newcomers.push(handle);
         Ok(())
+    }
+
+    /// Gives a body in the medium the inertia that it has in another layer.
+    pub fn change_layer(&mut self, index: usize, layer: usize, sets: &mut RapierSets) {
+        let Some(state) = self.registry.at_mut(index) else {
+            return;
+        };
+        let handle = state.handle;
+        let constants = in_layer(state.constants, layer);
+        let (Some(shared), Some(old), Some(saved)) = (
+            self.constants.get(constants),
+            self.constants.get(state.constants),
+            &mut state.saved,
+        ) else {
+            return;
+        };
+        let mass = shared.constants.dry.mass;
+        let error = saved.immerse(shared, mass, handle, sets.bodies, sets.colliders);
+        let memory = state.crossing.get_or_insert_default();
+        if !memory.active && state.flight.continues {
+            // Whole in one fluid until now.
+            memory.enter_from(&old.constants, usize::from(state.layer));
+        }
+        state.flight.converts_torque = error > CONVERTED_ERROR;
+        state.flight.solver_mass = mass as Real;
+        state.flight.continues = false;
+        (state.constants, state.layer) = (constants, layer as u8);
+        self.registry.newcomers.push(handle);
     }
 
     /// Gives a body back to rapier that is let in anew, if its user has changed it, too: it is read anew
@@ -454,13 +485,28 @@ impl Admission<'_> {
             return false;
         };
         let layer = usize::from(state.layer);
-        let now = self.environment.mean_flow(layer, body.center_of_mass());
-        let now = now.velocity;
+        let at = body.center_of_mass();
+        let mut pressure = 0.0;
+        // A body at a surface feels the fluid above, too.
+        if let Some(memory) = state.crossing.as_ref().filter(|memory| memory.active) {
+            for above in usize::from(memory.first)..layer {
+                let now = self.environment.mean_flow(above, at).velocity;
+                let before = memory
+                    .before(above, 0, 1)
+                    .map(|(_, velocity)| to_real(velocity));
+                let before: Vector = before.unwrap_or_default();
+                let fluid = self.environment.medium.layers()[above].fluid;
+                pressure +=
+                    fluid.density() * (now - before).length() * (now.length() + before.length());
+            }
+        }
+        let now = self.environment.mean_flow(layer, at).velocity;
         let speeds = (now - before).length() * (now.length() + before.length());
         let fluctuations = (turbulent_energy - flight.turbulent_energy).abs() * (2.0 / 3.0);
         let area = description.hydro.planform.area as Real;
         let c = &shared.constants;
-        let pressure = 0.5 * c.density as Real * area * (speeds + fluctuations);
+        pressure += c.density as Real * (speeds + fluctuations);
+        let pressure = 0.5 * area * pressure;
         let weight = (c.dry.mass - c.displaced_mass).abs() as Real * gravity.length();
         pressure > WAKE_SHARE * weight
     }

@@ -1,12 +1,15 @@
 //! What the coupling keeps of one body: plain data.
 
 use super::control::BodyControl;
+use super::crossing_memory::CrossingMemory;
 use super::equipment::Equipment;
 use super::saved_properties::SavedProperties;
+use super::shared_constants::SharedConstants;
 use super::turbulence_memory::TurbulenceMemory;
 use crate::math::Row;
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::{Real, Rotation, Vector};
+use rapier3d::na::Matrix6;
 
 /// No index.
 pub(super) const NONE: u32 = u32::MAX;
@@ -56,6 +59,18 @@ pub(super) struct BodyState {
     pub flight: FlightState,
     /// What a body of parts or engines has besides.
     pub equipment: Option<Box<Equipment>>,
+    /// What a body keeps that a boundary of fluids may cut: in a medium of several.
+    pub crossing: Option<Box<CrossingMemory>>,
+}
+
+impl BodyState {
+    /// The 6×6 mass of body and fluid about the center of mass, body axes, `shared` being the body's constants.
+    pub fn mass_matrix(&self, shared: &SharedConstants) -> Matrix6<f64> {
+        match &self.crossing {
+            Some(memory) if memory.active => memory.mass.to_matrix6(&shared.constants.axes),
+            _ => shared.mass_matrix(),
+        }
+    }
 }
 
 #[cfg(feature = "serde-serialize")]

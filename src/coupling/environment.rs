@@ -75,14 +75,18 @@ impl Environment {
         ended && self.medium.is_still()
     }
 
-    /// Whether the fluid of a layer moves at all.
-    pub fn moves(&self, layer: usize) -> bool {
-        self.medium.moves(layer)
-    }
-
     /// The layer that a point is in now.
     pub fn layer_at(&self, point: Vector) -> usize {
         self.medium.layer_at(point, self.time)
+    }
+
+    /// Density at a point, kg/m³; `None` where there is one fluid alone.
+    pub fn density_at(&self, point: Vector) -> Option<f64> {
+        if !self.medium.has_surface() {
+            return None;
+        }
+        let layer = self.medium.layers().get(self.layer_at(point))?;
+        Some(layer.fluid.density().into())
     }
 
     /// The mean flow of a layer's fluid at a point now.

@@ -83,6 +83,7 @@ impl Equipment {
         body: &RigidBody,
         fluid_velocity: Vector,
         gravity: Vector,
+        density_at: impl Fn(Vector) -> f64,
         dt: Real,
     ) {
         self.set = false;
@@ -95,9 +96,10 @@ impl Equipment {
         for (thruster, drive) in shared.thrusters.iter().zip(&self.drives) {
             let arm = thruster.point - c.dry.center;
             let speed = (linear + angular.cross(&arm)).dot(&thruster.direction);
-            let [thrust, turning] = thruster.action(*drive, speed, c.density);
+            let density = density_at(body.center_of_mass() + to_real(turn * arm));
+            let [thrust, turning] = thruster.action(*drive, speed, density);
             // A propeller that turns fast brakes a light body within a step: it may not more than stop what it brakes.
-            let stiff = thruster.slope(*drive, c.density) * f64::from(dt) / c.dry.mass;
+            let stiff = thruster.slope(*drive, density) * f64::from(dt) / c.dry.mass;
             let thrust = thruster.direction * (thrust / (1.0 + stiff));
             force += thrust;
             torque += arm.cross(&thrust) + thruster.direction * turning;
@@ -106,7 +108,12 @@ impl Equipment {
             force: to_real(turn * force),
             torque: to_real(turn * torque),
         };
-        let buoyancy = to_f64(gravity) * (-c.density * self.extra_volume);
+        let density = if self.extra_volume == 0.0 {
+            0.0
+        } else {
+            density_at(body.center_of_mass() + to_real(turn * c.buoyancy_arm))
+        };
+        let buoyancy = to_f64(gravity) * (-density * self.extra_volume);
         self.buoyancy = ForceAndTorque {
             force: to_real(buoyancy),
             torque: to_real((turn * c.buoyancy_arm).cross(&buoyancy)),

@@ -11,9 +11,10 @@ use super::registry::Registry;
 use super::shared_constants::ConstantsTable;
 use super::step::driver::{self, StepParts};
 use super::step::workspace::Workspace;
+use super::surface_readout::AmongLayers;
 use super::warning::{Warning, Warnings};
 use crate::body::{DryMass, ImmersedBody};
-use crate::dynamics::{ForceBreakdown, Integrator};
+use crate::dynamics::{ForceBreakdown, Hydrostatics, Integrator};
 use crate::flow::Flow;
 use crate::fluid::Fluid;
 use crate::hydro::viscous::ForceFactors;
@@ -424,6 +425,9 @@ impl Immersion {
         admission.admit(sets);
         admission.sweep(sets);
         self.environment.gravity = sets.gravity;
+        if self.environment.medium.is_tilted(sets.gravity) {
+            self.warnings.push_once(Warning::TiltedGravity);
+        }
         if driver::give_back(&mut self.parts(), sets) {
             self.warnings.push_once(Warning::UnfinishedStep);
         }
@@ -438,16 +442,21 @@ impl Immersion {
     /// stopped moving.
     fn take_over_changes(&mut self, sets: &mut RapierSets) {
         let mut changed = std::mem::take(&mut self.workspace.changed);
-        if !changed.is_empty() {
+        let mut sunk = std::mem::take(&mut self.workspace.sunk);
+        if !changed.is_empty() || !sunk.is_empty() {
             let mut admission = self.admission();
             for index in changed.drain(..) {
                 admission.take_over(index as usize, sets);
             }
+            for (index, layer) in sunk.drain(..) {
+                admission.change_layer(index as usize, layer, sets);
+            }
             driver::move_newcomers(&mut self.parts(), sets);
             // Those that were just let in anew are as they should be.
             self.workspace.changed.clear();
+            self.workspace.sunk.clear();
         }
-        self.workspace.changed = changed;
+        (self.workspace.changed, self.workspace.sunk) = (changed, sunk);
         if self.workspace.moved != self.workspace.moved_before {
             let missed: Vec<_> = self.workspace.missed().collect();
             let mut admission = self.admission();
@@ -531,6 +540,38 @@ impl Immersion {
         readout::forces(state, &self.constants, &self.environment, body, None)
     }
 
+    /// How a body lies in the free surface of the medium, as it is now; `None` if it is not immersed (yet), or in a single
+    /// fluid.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion, Medium};
+    ///
+    /// let mut world = PhysicsWorld::new();
+    /// let raft = ColliderBuilder::cuboid(1.0, 0.1, 0.5).density(500.0);
+    /// let (raft, _) = world.insert(RigidBodyBuilder::dynamic(), raft);
+    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, raft)?;
+    /// let mut immersion = Immersion::new(Medium::layered(Fluid::AIR, Fluid::WATER));
+    /// immersion.insert(raft, hydro);
+    /// immersion.step(&mut world);
+    /// let floats = immersion.hydrostatics(&world.bodies, raft).unwrap();
+    /// assert!((floats.submerged_share - 0.5).abs() < 0.01);
+    /// assert!((floats.waterplane_area - 2.0).abs() < 1e-4); // m²
+    /// // BM = I/V of the waterplane, a rectangle of 2 m × 1 m, about its long axis.
+    /// assert!((floats.metacentric_radii[0] - 2.0 / 12.0 / floats.submerged_volume).abs() < 1e-4);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    pub fn hydrostatics(
+        &self,
+        bodies: &RigidBodySet,
+        handle: RigidBodyHandle,
+    ) -> Option<Hydrostatics> {
+        let state = self.registry.get(handle)?;
+        let body = bodies.get(handle)?;
+        let among = AmongLayers::of(state, &self.constants, &self.environment, body)?;
+        Some(among.hydrostatics())
+    }
+
     /// The mass, center of mass and inertia of a body itself, without any fluid, as its user means them; `None`
     /// if it is not in the fluid (yet: a body enters with the first step after its insertion). A change is in
     /// them after the next step. Rapier's own `body.mass()` is what the solver uses meanwhile: see
@@ -557,11 +598,13 @@ impl Immersion {
 
     /// The 6×6 mass 𝕄 of a body with the fluid that it drags along: `𝕄 (v, ω)` is the momentum, N·s, and
     /// angular momentum, N·m·s, about the center of mass that it takes to move body and fluid at v, m/s, and
-    /// ω, rad/s. Axes of the body's frame. `None` if the body is not in the fluid (yet).
+    /// ω, rad/s. Axes of the body's frame. A body that the boundary of two fluids cuts drags along what it did in the
+    /// last step. `None` if the body is not in the fluid (yet).
     pub fn mass_matrix_of(&self, handle: RigidBodyHandle) -> Option<Matrix6<f64>> {
         let state = self.registry.get(handle)?;
         state.saved.as_ref()?;
-        Some(self.constants.get(state.constants)?.mass_matrix())
+        let shared = self.constants.get(state.constants)?;
+        Some(state.mass_matrix(shared))
     }
 
     /// Pushes a body at its center of mass with an impulse in N·s, world axes, that moves the fluid around it,
@@ -624,7 +667,8 @@ impl Immersion {
             return;
         };
         let lever = point - body.center_of_mass();
-        if let Some((linear, angular)) = impulse::velocity_change(shared, body, impulse, lever) {
+        let mass = state.map_or_else(|| shared.mass_matrix(), |state| state.mass_matrix(shared));
+        if let Some((linear, angular)) = impulse::velocity_change(&mass, body, impulse, lever) {
             body.set_linvel(body.linvel() + linear, true);
             body.set_angvel(body.angvel() + angular, true);
             // One that slept is not listed as active before rapier's next step.

@@ -1,16 +1,15 @@
 //! Pushes that act on a body and on the fluid that it drags along.
 
-use super::shared_constants::SharedConstants;
 use crate::math::{to_f64, to_quaternion, to_real};
 use rapier3d::dynamics::{LockedAxes, RigidBody};
 use rapier3d::math::Vector;
 use rapier3d::na::{Matrix6, Vector6};
 
 /// The changes of a body's linear and angular velocity, world axes, when an impulse in N·s acts at `lever`
-/// from its center of mass: `Δν = 𝕄⁻¹ (J, r × J)`, 𝕄 being the 6×6 mass of body and fluid. Along locked axes
+/// from its center of mass: `Δν = 𝕄⁻¹ (J, r × J)`, 𝕄 being the 6×6 mass of body and fluid in the body's axes. Along locked axes
 /// nothing changes, whatever it takes.
 pub(super) fn velocity_change(
-    shared: &SharedConstants,
+    mass: &Matrix6<f64>,
     body: &RigidBody,
     impulse: Vector,
     lever: Vector,
@@ -21,7 +20,7 @@ pub(super) fn velocity_change(
         .copy_from(rotation.matrix());
     turn.fixed_view_mut::<3, 3>(3, 3)
         .copy_from(rotation.matrix());
-    let mut mass = turn * shared.mass_matrix() * turn.transpose();
+    let mut mass = turn * mass * turn.transpose();
     let (linear, angular) = (to_f64(impulse), to_f64(lever).cross(&to_f64(impulse)));
     let mut push = Vector6::new(
         linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,

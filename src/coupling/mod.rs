@@ -17,6 +17,7 @@ mod body_changes;
 mod body_look;
 mod body_state;
 mod control;
+mod crossing_memory;
 mod environment;
 mod equipment;
 mod immersion;
@@ -31,6 +32,7 @@ mod shared_constants;
 #[cfg(feature = "serde-serialize")]
 mod snapshot;
 mod step;
+mod surface_readout;
 mod turbulence_memory;
 mod warning;
 

@@ -4,13 +4,14 @@ use super::body_state::BodyState;
 use super::environment::Environment;
 use super::equipment::PartState;
 use super::shared_constants::ConstantsTable;
+use super::surface_readout::AmongLayers;
 use crate::dynamics::ForceBreakdown;
 use crate::dynamics::forces::Instant;
 use crate::dynamics::part_constants::PartConstants;
 use crate::dynamics::parts::PartNow;
 use crate::math::spatial::Twist;
-use crate::medium::Layer;
 use crate::math::{to_f64, to_quaternion, to_real, vector};
+use crate::medium::Layer;
 use rapier3d::dynamics::RigidBody;
 use rapier3d::math::{Real, Vector};
 use rapier3d::na::UnitQuaternion;
@@ -24,6 +25,11 @@ pub(super) fn forces(
     part: Option<usize>,
 ) -> Option<ForceBreakdown> {
     state.saved.as_ref()?;
+    if let Some(among) = AmongLayers::of(state, constants, environment, body)
+        && among.is_cut()
+    {
+        return Some(among.forces(part));
+    }
     let c = &constants.get(state.constants)?.constants;
     let axes = UnitQuaternion::from_rotation_matrix(&c.axes);
     let attitude = to_quaternion(*body.rotation()) * axes;
@@ -82,7 +88,13 @@ pub(super) fn forces(
     }
     let fluctuation = state.flight.turbulence.fluctuation;
     let turbulent = |layer: &Layer| layer.turbulence.is_some();
-    if environment.medium.layers().get(layer).is_some_and(turbulent) && fluctuation != Vector::ZERO {
+    if environment
+        .medium
+        .layers()
+        .get(layer)
+        .is_some_and(turbulent)
+        && fluctuation != Vector::ZERO
+    {
         let fluctuating = forces_in(mean.velocity + fluctuation, 1.0);
         forces.turbulence = fluctuating.viscous() - forces.viscous();
     }

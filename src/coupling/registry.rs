@@ -172,6 +172,7 @@ impl Registry {
             warned: Warned::default(),
             flight: FlightState::default(),
             equipment,
+            crossing: None,
         });
     }
 

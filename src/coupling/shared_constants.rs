@@ -4,6 +4,7 @@ use super::principal_mass::PrincipalMass;
 use crate::body::from_rapier::inertia;
 use crate::body::{DryMass, ImmersedBody, Thruster};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
+use crate::dynamics::crossing::CrossingConstants;
 use crate::dynamics::flow_response::FlowResponse;
 use crate::dynamics::part_constants::PartConstants;
 use crate::error::Error;
@@ -107,16 +108,26 @@ pub(super) struct Route {
     pub symmetric: bool,
     /// The law of the whole; `None` for a body of parts, which have laws of their own.
     law: Option<LawKind>,
+    /// Whether a boundary of fluids cuts the body.
+    pub crossing: bool,
 }
 
 impl Route {
     /// Number of routes.
-    pub const COUNT: usize = 2 * LawKind::ALL.len() + 1;
+    pub const COUNT: usize = 2 * LawKind::ALL.len() + 2;
 
     /// That of bodies of parts.
     const PARTS: Self = Self {
         symmetric: false,
         law: None,
+        crossing: false,
+    };
+
+    /// That of bodies that a boundary of fluids cuts.
+    pub const CROSSING: Self = Self {
+        symmetric: false,
+        law: None,
+        crossing: true,
     };
 
     /// All routes, in the order of their indices.
@@ -126,15 +137,17 @@ impl Route {
         let all = all.map(|(symmetric, law)| Self {
             symmetric,
             law: Some(law),
+            crossing: false,
         });
-        all.chain([Self::PARTS])
+        all.chain([Self::PARTS, Self::CROSSING])
     }
 
     /// Index among all routes, less than [`COUNT`](Self::COUNT).
     pub fn index(self) -> usize {
-        self.law.map_or(Self::COUNT - 1, |law| {
-            2 * law as usize + usize::from(self.symmetric)
-        })
+        match self.law {
+            Some(law) => 2 * law as usize + usize::from(self.symmetric),
+            None => Self::COUNT - 2 + usize::from(self.crossing),
+        }
     }
 
     /// Whether it is that of bodies of parts.
@@ -193,6 +206,7 @@ impl SharedConstants {
             Route {
                 symmetric: constants.symmetric,
                 law: Some(constants.law.kind()),
+                crossing: false,
             }
         } else {
             Route::PARTS
@@ -292,6 +306,8 @@ struct InMedium {
     /// In the uppermost fluid, and in the others.
     first: SharedConstants,
     others: Vec<SharedConstants>,
+    /// What it needs where a boundary of fluids cuts it.
+    crossing: Option<CrossingConstants>,
 }
 
 impl InMedium {
@@ -305,22 +321,22 @@ impl InMedium {
         let mut in_fluids = medium
             .fluids()
             .map(|fluid| SharedConstants::new(body, &thrusters, dry, fluid));
+        // A medium has a fluid.
         let first = in_fluids.next();
+        let first = first.unwrap_or(Err(Error::UnphysicalAddedMass))?;
         Ok(Self {
             description,
             body: body.clone(),
-            // A medium has a fluid.
-            first: first.unwrap_or(Err(Error::UnphysicalAddedMass))?,
             others: in_fluids.collect::<Result<_, _>>()?,
+            crossing: CrossingConstants::new(body, dry, medium, &first.constants),
+            first,
         })
     }
 
     /// Whether a body of this description and mass would share them. An index may have been given to
     /// another description since, so that the description itself is compared, too.
     fn is(&self, description: u32, body: &ImmersedBody, dry: &DryMass) -> bool {
-        self.description == description
-            && self.first.constants.dry == *dry
-            && self.body == *body
+        self.description == description && self.first.constants.dry == *dry && self.body == *body
     }
 }
 
@@ -394,6 +410,12 @@ impl ConstantsTable {
             0 => Some(&entry.first),
             layer => entry.others.get(layer - 1),
         }
+    }
+
+    /// What a body needs where a boundary of fluids cuts it; `None` in a single fluid.
+    #[inline(always)]
+    pub fn crossing(&self, index: u32) -> Option<&CrossingConstants> {
+        self.entries.get(in_layer(index, 0))?.crossing.as_ref()
     }
 
     /// Forgets all, as when the medium has changed.

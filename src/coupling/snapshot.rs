@@ -149,6 +149,15 @@ impl BodyState {
             let parts = equipment.parts.len() as f64;
             Error::check("parts of a body", parts, equipment.is_valid(), "of numbers")?;
         }
+        if let Some(crossing) = &self.crossing {
+            let share = crossing.submerged.into();
+            Error::check(
+                "body at a surface",
+                share,
+                crossing.is_valid(),
+                "of numbers",
+            )?;
+        }
         self.flight.check()
     }
 }

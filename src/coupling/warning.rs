@@ -80,6 +80,9 @@ pub enum Warning {
         /// Density of the layer above, kg/m³.
         above: f32,
     },
+    /// The world's gravity is not opposite to the medium's up ([`Medium::with_up`](crate::Medium::with_up)): where a free
+    /// surface cuts a body its buoyancy acts along up all the same, with what of the gravity is along it.
+    TiltedGravity,
     /// A step was begun ([`Immersion::before_step`](crate::Immersion::before_step)) before the last one was
     /// finished ([`Immersion::after_step`](crate::Immersion::after_step)): contacts were not corrected.
     UnfinishedStep,
@@ -125,6 +128,10 @@ impl std::fmt::Display for Warning {
             } => write!(
                 f,
                 "layer {layer} of the medium, of {density} kg/m³, is lighter than the one above it, of {above} kg/m³"
+            ),
+            Self::TiltedGravity => write!(
+                f,
+                "the world's gravity is not opposite to the medium's up: buoyancy at the surface acts along up"
             ),
             Self::UnfinishedStep => write!(
                 f,

@@ -117,7 +117,7 @@ pub(crate) struct Instant {
 }
 
 /// Of a velocity in plate axes: 0 edgewise to π/2 broadside.
-fn angle_of_attack(velocity: &Vector3<f64>) -> f32 {
+pub(super) fn angle_of_attack(velocity: &Vector3<f64>) -> f32 {
     let speed = velocity.norm();
     if speed > 0.0 {
         (velocity.z.abs() / speed).min(1.0).asin() as f32

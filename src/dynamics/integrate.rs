@@ -176,6 +176,13 @@ pub(crate) fn advance<const SYMMETRIC: bool, T: Scalar, F: Reaction<T>>(
         substep::<SYMMETRIC, T, F>(inertia, fluid, load, motion, h, iterations);
         done += one;
     }
+    keep_finite(&start, motion, dt);
+}
+
+/// Lets a body coast through a step of `dt` that has not led to numbers.
+#[inline(always)]
+pub(super) fn keep_finite<T: Scalar>(start: &Motion<T>, motion: &mut Motion<T>, dt: T) {
+    let zero = dt.constant(0.0);
     // Whatever goes wrong (a law that adds energy, a fluid at 10⁶ m/s) does not reach rapier: NaN fails
     // the comparison, and the body keeps its velocity for this step.
     let size =

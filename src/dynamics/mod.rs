@@ -1,6 +1,7 @@
 //! Equations of motion of one body, and their integrator.
 
 pub(crate) mod constants;
+pub(crate) mod crossing;
 #[cfg(test)]
 mod designs;
 pub(crate) mod flow_response;
@@ -16,6 +17,7 @@ pub(crate) mod parts;
 pub(crate) mod reaction;
 mod symmetric;
 
+pub use crossing::Hydrostatics;
 pub use forces::{ForceAndTorque, ForceBreakdown};
 pub use free_body::FreeBody;
 pub use integrator::Integrator;

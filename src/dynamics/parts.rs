@@ -17,10 +17,10 @@ use super::load::Load;
 use super::part_constants::PartConstants;
 use super::reaction::{Frozen, Reaction, implicitness};
 use crate::hydro::part_law::Raise;
-use crate::hydro::part_law::place::CoupledMass;
+use crate::hydro::part_law::place::{CoupledMass, PartPlace};
 use crate::hydro::viscous::ForceFactors;
 use crate::math::Scalar;
-use crate::math::spatial::{Blocks, Twist, cross, product, rotate_back, skew, transform};
+use crate::math::spatial::{Blocks, Twist, Wrench, cross, product, rotate_back, skew, transform};
 use rapier3d::na::{Matrix3, Vector3};
 
 /// What the fluid around a part does, and how the part is set: of one body, or of several side by side.
@@ -93,36 +93,15 @@ impl<T: Scalar, R: Raise<T>, N: Fn(usize) -> PartNow<T>> Reaction<T> for Parts<'
         };
         for (i, part) in self.constants.iter().enumerate() {
             let now = (self.now)(i);
-            let mut place = self.raise.place(&part.place);
-            if self.deflected
-                && let Some(hinge) = &part.hinge
-            {
-                place = self.raise.hinge(hinge).turned(&place, now.sine, now.cosine);
-            }
-            if !self.flows {
+            let place = part.place_now(self.raise, self.deflected, &now);
+            if self.flows {
+                part.add_in_flow(self.raise, &place, &now, frozen, &mut n, &mut applied);
+            } else {
                 n.add(&part.law.matrix(self.raise, &place, middle, now.factors));
-                continue;
             }
-            // The fluid's motion around the part, as a twist about the center of mass.
-            let spin = rotate_back(attitude, &now.spin);
-            let fluid = Twist {
-                linear: rotate_back(attitude, &now.velocity) - cross(&spin, &place.position),
-                angular: spin,
-            };
-            let relative = middle.add_scaled(&fluid, h.constant(-1.0));
-            let of_part = part.law.matrix(self.raise, &place, &relative, now.factors);
-            let carried = of_part.apply(&fluid);
-            applied.force -= carried.force;
-            applied.torque -= carried.torque;
-            n.add(&of_part);
         }
 
-        let along = |i: usize| {
-            let linear = n.m11[(i, i)] * inertia.per_m11[i];
-            let angular = n.m22[(i, i)] * inertia.per_m22[i];
-            -linear.min(angular)
-        };
-        let theta = implicitness(h * along(0).max(along(1)).max(along(2)));
+        let theta = implicitness(h * fastest_decay(inertia, &n));
         couple(&self.raise.coupled(self.coupled), inertia, middle, &mut n);
         let system = inertia.mass_matrix().less_scaled(&n, theta * h);
         let right = (n.apply(start) + applied).scaled(h);
@@ -136,10 +115,63 @@ impl<T: Scalar, R: Raise<T>, N: Fn(usize) -> PartNow<T>> Reaction<T> for Parts<'
     }
 }
 
+impl<K: Copy + std::fmt::Debug + PartialEq + 'static> PartConstants<K> {
+    /// Where the part is, turned about its hinge if some part is.
+    #[inline(always)]
+    pub fn place_now<T: Scalar, R: Raise<T, Kept = K>>(
+        &self,
+        raise: R,
+        deflected: bool,
+        now: &PartNow<T>,
+    ) -> PartPlace<T> {
+        let place = raise.place(&self.place);
+        match &self.hinge {
+            Some(hinge) if deflected => raise.hinge(hinge).turned(&place, now.sine, now.cosine),
+            _ => place,
+        }
+    }
+
+    /// Adds the part's matrix in a fluid that moves around it, and the force of that motion.
+    #[inline(always)]
+    pub fn add_in_flow<T: Scalar, R: Raise<T, Kept = K>>(
+        &self,
+        raise: R,
+        place: &PartPlace<T>,
+        now: &PartNow<T>,
+        frozen: &Frozen<T>,
+        n: &mut Blocks<T>,
+        applied: &mut Wrench<T>,
+    ) {
+        // The fluid's motion around the part, as a twist about the center of mass.
+        let spin = rotate_back(&frozen.attitude, &now.spin);
+        let fluid = Twist {
+            linear: rotate_back(&frozen.attitude, &now.velocity) - cross(&spin, &place.position),
+            angular: spin,
+        };
+        let relative = frozen.middle.add_scaled(&fluid, now.sine.constant(-1.0));
+        let of_part = self.law.matrix(raise, place, &relative, now.factors);
+        let carried = of_part.apply(&fluid);
+        applied.force -= carried.force;
+        applied.torque -= carried.torque;
+        n.add(&of_part);
+    }
+}
+
+/// The rate at which the motion decays that the matrix of all forces brakes most, 1/s.
+#[inline(always)]
+pub(super) fn fastest_decay<T: Scalar>(inertia: &InertiaConstants<T>, n: &Blocks<T>) -> T {
+    let along = |i: usize| {
+        let linear = n.m11[(i, i)] * inertia.per_m11[i];
+        let angular = n.m22[(i, i)] * inertia.per_m22[i];
+        -linear.min(angular)
+    };
+    along(0).max(along(1)).max(along(2))
+}
+
 /// Adds the inertial coupling: see [`InertiaConstants::coupling_matrix`], of which this is the sum over parts: `[r]× [ω]× [r]×` is
 /// `−(r·ω) [r]×`.
 #[inline(always)]
-fn couple<T: Scalar>(
+pub(super) fn couple<T: Scalar>(
     coupled: &CoupledMass<T>,
     inertia: &InertiaConstants<T>,
     v: &Twist<T>,

@@ -1,6 +1,6 @@
 //! Everything the fluid feels of a shape, computed once.
 
-use super::{AddedMass, BluffShape, Planform, Silhouette};
+use super::{AddedMass, BluffShape, Hull, Planform, Silhouette};
 use crate::error::Error;
 use crate::geometry::{Ellipsoid, Surface};
 use rapier3d::na::{Matrix3, Rotation3, Vector3};
@@ -38,6 +38,8 @@ pub struct HydroProperties {
     /// What the law of bodies that are not plates knows of the shape; `None` for a thin plate, and where
     /// nothing but the proxy is known.
     pub bluff: Option<BluffShape>,
+    /// The closed surface, as a free surface cuts it.
+    pub hull: Hull,
     /// The surfaces that the shape consists of, if it is more than one to the fluid: in the same frame, and
     /// without parts of their own.
     pub parts: Vec<HydroProperties>,
@@ -121,6 +123,7 @@ impl HydroProperties {
             planform,
             proxy,
             bluff,
+            hull: Hull::from_surface(surface),
             parts: Vec::new(),
         }
     }

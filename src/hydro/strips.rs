@@ -151,6 +151,7 @@ fn strip(
         },
         proxy: whole.proxy,
         bluff: None,
+        hull: whole.hull.clone(),
         parts: Vec::new(),
     })
 }

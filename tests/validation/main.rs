@@ -31,5 +31,6 @@ mod sphere;
 mod static_polars;
 
 mod support;
+mod surface;
 mod thesis_law;
 mod turbulence;

@@ -7,7 +7,7 @@ use super::stage_data::StepContext;
 use super::substep_matching::SubstepScheme;
 use super::workspace::{Batched, Bin, Workspace};
 use super::write_back;
-use super::{contact_mass, energy_budget};
+use super::{contact_mass, crossing, energy_budget};
 use crate::coupling::control::SeriesTable;
 use crate::coupling::environment::Environment;
 use crate::coupling::rapier_sets::RapierSets;
@@ -127,6 +127,7 @@ fn move_body(
         registry: parts.registry,
         moved: &mut parts.workspace.moved,
         changed: &mut parts.workspace.changed,
+        sunk: &mut parts.workspace.sunk,
         batches: &mut parts.workspace.batches,
         systems: &mut parts.workspace.jointed.systems,
     };
@@ -151,9 +152,11 @@ fn run_stages(bin: Bin, parts: &mut StepParts, sets: &mut RapierSets, context: &
         context,
         batch,
         [&mut workspace.samples, &mut workspace.part_samples],
+        &mut workspace.layer_points,
         &mut workspace.bad_flows,
     );
     let mut outputs = std::mem::take(&mut batch.outputs);
+    let mut crossings = std::mem::take(&mut batch.crossings);
     let batched = Batched {
         states: parts.registry.states(),
         constants: parts.constants,
@@ -161,8 +164,19 @@ fn run_stages(bin: Bin, parts: &mut StepParts, sets: &mut RapierSets, context: &
         parts: &batch.parts,
         context,
     };
-    integrate(&batch.inputs, &batch.flows, &mut outputs, bin.route, batched);
-    batch.outputs = outputs;
+    if bin.route.crossing {
+        let environment = parts.environment;
+        crossing::integrate(batch, &mut crossings, &mut outputs, environment, batched);
+    } else {
+        integrate(
+            &batch.inputs,
+            &batch.flows,
+            &mut outputs,
+            bin.route,
+            batched,
+        );
+    }
+    (batch.outputs, batch.crossings) = (outputs, crossings);
     let mut to = write_back::Destination {
         constants: parts.constants,
         registry: parts.registry,

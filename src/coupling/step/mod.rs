@@ -11,6 +11,7 @@
 
 mod constraint_impulse;
 mod contact_mass;
+mod crossing;
 pub(super) mod driver;
 mod energy_budget;
 mod friction;

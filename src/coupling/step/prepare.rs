@@ -1,20 +1,23 @@
 //! The first stage: which bodies a step moves, and what it has to know of them.
 
 use super::contact_mass::CloseBodies;
+use super::crossing::{self, CrossingBody};
 use super::jointed_systems::JointedSystems;
 use super::stage_data::{Disturbance, JointAction, PartRow, SeenFlow, StepContext, StepInput};
 use super::workspace::{Batch, Bin};
 use super::{constraint_impulse, contact_mass, friction, held_motion};
-use crate::coupling::body_state::{FlightState, IntegratorState, NONE};
+use crate::coupling::body_state::{BodyState, FlightState, IntegratorState, NONE};
 use crate::coupling::control::SeriesTable;
 use crate::coupling::environment::Environment;
 use crate::coupling::equipment::{Equipment, PartState};
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
-use crate::coupling::shared_constants::{ConstantsTable, SharedConstants, layer_of};
-use crate::math::row;
+use crate::coupling::shared_constants::{ConstantsTable, Route, SharedConstants, layer_of};
+use crate::dynamics::crossing::CrossingConstants;
+use crate::math::{row, to_real};
 use rapier3d::dynamics::{LockedAxes, RigidBody, RigidBodyHandle};
 use rapier3d::math::{Real, Rotation, Vector};
+use rapier3d::na::Vector3;
 
 /// Relative difference of velocities that rapier's own arithmetic in f32 can cause.
 const ROUNDING: Real = 2e-6;
@@ -38,6 +41,7 @@ pub(super) struct Preparation<'a> {
     pub registry: &'a mut Registry,
     pub moved: &'a mut [u8],
     pub changed: &'a mut Vec<u32>,
+    pub sunk: &'a mut Vec<(u32, usize)>,
     pub batches: &'a mut [Batch],
     pub systems: &'a mut JointedSystems,
 }
@@ -65,6 +69,11 @@ pub(super) fn prepare(
     let saved = state.saved.as_deref()?;
     if !enabling && !saved.still_holds(body, sets.colliders) {
         to.changed.push(index as u32);
+        return None;
+    }
+    let layers = crossing::layers_of(to.environment, to.constants, state, body, to.context.dt);
+    if layers.last != layer_of(state.constants) {
+        to.sunk.push((index as u32, layers.last));
         return None;
     }
     let shared = to.constants.get(state.constants)?;
@@ -134,7 +143,12 @@ pub(super) fn prepare(
     let (mut force, mut torque) = (body.user_force(), body.user_torque());
     if let Some(equipment) = &mut state.equipment {
         let gravity = to.context.gravity * body.gravity_scale();
-        equipment.act(shared, body, flight.fluid_velocity, gravity, dt);
+        let density_at = |point| {
+            to.environment
+                .density_at(point)
+                .unwrap_or(shared.constants.density)
+        };
+        equipment.act(shared, body, flight.fluid_velocity, gravity, density_at, dt);
         let own = equipment.action();
         force += own.force;
         torque += own.torque;
@@ -185,11 +199,13 @@ pub(super) fn prepare(
     if let Some(moved) = to.moved.get_mut(index) {
         *moved = 1;
     }
-    let layer = layer_of(state.constants);
-    let bin = Bin {
-        layer,
-        route: shared.route,
+    let layer = layers.last;
+    let route = if layers.cut {
+        Route::CROSSING
+    } else {
+        shared.route
     };
+    let bin = Bin { layer, route };
     let batch = to.batches.get_mut(bin.index())?;
     let disturbance = if undisturbed {
         NONE
@@ -203,9 +219,14 @@ pub(super) fn prepare(
         });
         batch.disturbances.len() as u32 - 1
     };
-    let moves = to.environment.moves(layer);
-    let layers = to.environment.medium.layers();
-    let turbulent = layers.get(layer).is_some_and(|own| own.turbulence.is_some());
+    let medium = &to.environment.medium;
+    let moves = if layers.cut {
+        !medium.is_still()
+    } else {
+        medium.moves(layer)
+    };
+    let own_layer = medium.layers().get(layer);
+    let turbulent = own_layer.is_some_and(|own| own.turbulence.is_some());
     if moves {
         batch.points.push(body.center_of_mass());
         batch.flows.push(SeenFlow::before(flight));
@@ -214,7 +235,26 @@ pub(super) fn prepare(
         batch.turbulence.push(flight.turbulence);
     }
     let first_part = batch.parts.len() as u32;
-    if let Some(equipment) = &state.equipment
+    let mut floats = false;
+    if layers.cut {
+        let crossing = to.constants.crossing(state.constants)?;
+        let mut memory = state.crossing.take().unwrap_or_default();
+        if !memory.active && state.flight.continues {
+            memory.enter_from(&shared.constants, layer);
+        }
+        floats = memory.rests;
+        let own = CrossingBody {
+            first: layers.first,
+            count: layers.last + 1 - layers.first,
+            rows: 0,
+            center: body.center_of_mass(),
+            known_mass: memory.active,
+            alone: undisturbed && free,
+            memory,
+            load: Default::default(),
+        };
+        add_crossing(own, crossing, state, rapier_attitude, moves, batch);
+    } else if let Some(equipment) = &state.equipment
         && shared.route.has_parts()
     {
         add_parts(
@@ -231,7 +271,7 @@ pub(super) fn prepare(
         state: index as u32,
         constants: state.constants,
         free,
-        may_sleep: touching,
+        may_sleep: touching || floats,
         in_contact: normal.is_some(),
         locked,
         system: joints.map_or(NONE, |joints| joints.number),
@@ -266,18 +306,7 @@ fn add_parts(
     let none = PartState::default();
     for (i, constants) in shared.parts.iter().enumerate() {
         let part = equipment.parts.get(i).unwrap_or(&none);
-        let (sine, cosine) = part.deflection.sin_cos();
-        let factors = &part.factors;
-        batch.parts.push(PartRow {
-            velocity: [0.0, 0.0, 0.0, sine],
-            spin: [0.0, 0.0, 0.0, cosine],
-            factors: [
-                factors.drag,
-                factors.rotational_lift,
-                factors.translational_lift,
-                0.0,
-            ],
-        });
+        batch.parts.push(part_row(part));
         if moves {
             let [x, y, z] = constants.place.position.into();
             batch
@@ -287,6 +316,54 @@ fn add_parts(
         if turbulent {
             batch.part_turbulence.push(part.turbulence);
         }
+    }
+}
+
+/// Adds a body that is cut, with a row for each of its parts in each layer.
+fn add_crossing(
+    mut own: CrossingBody,
+    constants: &CrossingConstants,
+    state: &BodyState,
+    attitude: Rotation,
+    moves: bool,
+    batch: &mut Batch,
+) {
+    let none = PartState::default();
+    let parts = constants.part_count();
+    own.rows = parts * own.count;
+    for layer in own.first..own.first + own.count {
+        for i in 0..parts {
+            let equipment = state.equipment.as_ref();
+            let part = equipment.and_then(|known| known.parts.get(i));
+            let part = part.unwrap_or(&none);
+            batch.parts.push(part_row(part));
+            if moves {
+                // At the middle of what was there in the last step.
+                let cut = constants.parts.get(i).unwrap_or(&constants.whole);
+                let before = own.memory.before(layer, i, parts);
+                let shift = before.map_or(Vector3::zeros(), |(portion, _)| portion.shift);
+                let at = own.center + attitude * to_real(cut.middle + shift);
+                batch.part_points.push(at);
+                batch.point_layers.push(layer as u8);
+            }
+        }
+    }
+    batch.crossings.push(own);
+}
+
+/// How a part is set, in a fluid at rest.
+fn part_row(part: &PartState) -> PartRow {
+    let (sine, cosine) = part.deflection.sin_cos();
+    let factors = &part.factors;
+    PartRow {
+        velocity: [0.0, 0.0, 0.0, sine],
+        spin: [0.0, 0.0, 0.0, cosine],
+        factors: [
+            factors.drag,
+            factors.rotational_lift,
+            factors.translational_lift,
+            0.0,
+        ],
     }
 }
 

@@ -2,12 +2,13 @@
 
 use super::stage_data::{Disturbance, StepContext, StepInput};
 use super::turbulence::{Fluctuate, StepTurbulence};
-use super::workspace::Batch;
+use super::workspace::{Batch, LayerPoints};
 use crate::coupling::body_state::NONE;
 use crate::coupling::environment::Environment;
 use crate::coupling::shared_constants::ConstantsTable;
 use crate::flow::FlowSample;
 use crate::math::{Row, dispatch, row, vector};
+use crate::medium::Medium;
 use crate::turbulence::LangevinMode;
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::{Real, Vector};
@@ -25,6 +26,7 @@ pub(super) fn sample_fluid(
     context: &StepContext,
     batch: &mut Batch,
     [samples, part_samples]: [&mut Vec<FlowSample>; 2],
+    of_layer: &mut LayerPoints,
     bad_flows: &mut Vec<RigidBodyHandle>,
 ) {
     let Batch {
@@ -36,6 +38,8 @@ pub(super) fn sample_fluid(
         parts,
         part_points,
         part_turbulence,
+        crossings,
+        point_layers,
         ..
     } = batch;
     if flows.is_empty() {
@@ -65,7 +69,17 @@ pub(super) fn sample_fluid(
     }
     part_samples.clear();
     part_samples.resize(part_points.len(), FlowSample::default());
-    if !part_points.is_empty() {
+    if !crossings.is_empty() {
+        for layer in 0..medium.layers().len() {
+            of_layer.sample(
+                medium,
+                layer,
+                time,
+                (part_points, point_layers),
+                part_samples,
+            );
+        }
+    } else if !part_points.is_empty() {
         medium.sample(layer, part_points, time, part_samples);
     }
     if let Some(turbulent) = &own.turbulence {
@@ -83,6 +97,9 @@ pub(super) fn sample_fluid(
                     let Some(shared) = constants.get(input.constants) else {
                         continue;
                     };
+                    if !crossings.is_empty() {
+                        continue;
+                    }
                     let first = input.first_part as usize;
                     let range = first..(first + shared.parts.len()).min(part_points.len());
                     turbulence.fluctuate_parts(
@@ -113,7 +130,7 @@ pub(super) fn sample_fluid(
             }
         }
     }
-    for ((flow, sample), input) in flows.iter_mut().zip(samples).zip(inputs) {
+    for (i, ((flow, sample), input)) in flows.iter_mut().zip(samples).zip(inputs).enumerate() {
         if !flow.advance(sample) {
             bad_flows.push(input.handle);
         }
@@ -125,7 +142,20 @@ pub(super) fn sample_fluid(
         };
         let half_length = 0.5 * shared.constants.length as Real;
         let first = input.first_part as usize;
-        let range = first..(first + shared.parts.len()).min(part_points.len());
+        let mut count = shared.parts.len();
+        let mut fluctuation = Vector::ZERO;
+        if let Some(own) = crossings.get(i) {
+            // All that is in the layer of the batch fluctuates as the body's center.
+            count = own.rows;
+            fluctuation = memories.get(i).map_or(fluctuation, |own| own.fluctuation);
+        }
+        let range = first..(first + count).min(part_points.len());
+        let layers = point_layers.get(range.clone()).unwrap_or_default();
+        for (seen, of) in part_samples[range.clone()].iter_mut().zip(layers) {
+            if usize::from(*of) == layer {
+                seen.velocity += fluctuation;
+            }
+        }
         for (part, seen) in parts[range.clone()].iter_mut().zip(&part_samples[range]) {
             let relative = seen.velocity - vector(flow.velocity);
             let spin = seen.vorticity * half_length;
@@ -135,6 +165,33 @@ pub(super) fn sample_fluid(
             } else {
                 bad_flows.push(input.handle);
             }
+        }
+    }
+}
+
+impl LayerPoints {
+    /// Samples those of many points that are in a layer.
+    fn sample(
+        &mut self,
+        medium: &Medium,
+        layer: usize,
+        time: f64,
+        (points, layers): (&[Vector], &[u8]),
+        samples: &mut [FlowSample],
+    ) {
+        self.points.clear();
+        self.places.clear();
+        let of_layer = layers.iter().zip(points).enumerate();
+        for (place, (_, point)) in of_layer.filter(|(_, (own, _))| usize::from(**own) == layer) {
+            self.points.push(*point);
+            self.places.push(place);
+        }
+        self.samples.clear();
+        self.samples
+            .resize(self.points.len(), FlowSample::default());
+        medium.sample(layer, &self.points, time, &mut self.samples);
+        for (place, sample) in self.places.iter().zip(&self.samples) {
+            samples[*place] = *sample;
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The memory that a step works in, reused from step to step.
 
 use super::contact_mass::CloseBodies;
+use super::crossing::CrossingBody;
 use super::energy_budget::JointedBodies;
 use super::mean_motion::MeanMotion;
 use super::stage_data::{
@@ -27,6 +28,9 @@ pub(in crate::coupling) struct Batch {
     pub parts: Vec<PartRow>,
     pub part_points: Vec<Vector>,
     pub part_turbulence: Vec<TurbulenceMemory>,
+    /// What bodies that are cut have besides, and the layer that each of the parts' points is in; empty on other routes.
+    pub crossings: Vec<CrossingBody>,
+    pub point_layers: Vec<u8>,
     /// What the integration makes of the inputs.
     pub outputs: Vec<StepOutput>,
 }
@@ -53,6 +57,8 @@ impl Batch {
         self.parts.clear();
         self.part_points.clear();
         self.part_turbulence.clear();
+        self.crossings.clear();
+        self.point_layers.clear();
     }
 }
 
@@ -83,6 +89,14 @@ impl<'a> Batched<'a> {
     }
 }
 
+/// Points of one layer, and where they stand among others.
+#[derive(Clone, Default)]
+pub(in crate::coupling) struct LayerPoints {
+    pub points: Vec<Vector>,
+    pub places: Vec<usize>,
+    pub samples: Vec<FlowSample>,
+}
+
 /// What a step works in.
 #[derive(Clone, Default)]
 pub(in crate::coupling) struct Workspace {
@@ -101,6 +115,10 @@ pub(in crate::coupling) struct Workspace {
     pub moved_before: Vec<u8>,
     /// Indices of the states of bodies that their users have changed, which are not moved yet.
     pub changed: Vec<u32>,
+    /// Those of bodies that have got into another layer, and that layer.
+    pub sunk: Vec<(u32, usize)>,
+    /// Points of one layer among those of parts, and their places.
+    pub layer_points: LayerPoints,
     /// Bodies at which the flow was no number in this step.
     pub bad_flows: Vec<RigidBodyHandle>,
 }
@@ -128,7 +146,8 @@ impl Bin {
 impl Workspace {
     /// Makes a batch for each bin of a medium of so many layers.
     pub fn prepare_batches(&mut self, layers: usize) {
-        self.batches.resize_with(layers * Route::COUNT, Batch::default);
+        self.batches
+            .resize_with(layers * Route::COUNT, Batch::default);
     }
 
     /// Makes room for marking which of so many bodies a step moves.

@@ -13,6 +13,7 @@ use crate::coupling::equipment::Equipment;
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::{ConstantsTable, SharedConstants};
+use crate::dynamics::ForceAndTorque;
 use crate::math::{Row, to_f64, to_quaternion, to_real, vector};
 use rapier3d::dynamics::{RigidBody, RigidBodySet};
 use rapier3d::math::{Rotation, Vector};
@@ -42,8 +43,13 @@ pub(super) struct Destination<'a> {
 }
 
 /// Writes the outputs of a batch, and keeps what must be given back.
-pub(super) fn write_back(batch: &Batch, sets: &mut RapierSets, to: &mut Destination) {
+pub(super) fn write_back(batch: &mut Batch, sets: &mut RapierSets, to: &mut Destination) {
     let fluid_moves = !batch.flows.is_empty() || !batch.turbulence.is_empty();
+    for (input, own) in batch.inputs.iter().zip(&mut batch.crossings) {
+        if let Some(state) = to.registry.at_mut(input.state as usize) {
+            state.crossing = Some(std::mem::take(&mut own.memory));
+        }
+    }
     for (i, (input, output)) in batch.inputs.iter().zip(&batch.outputs).enumerate() {
         if fluid_moves && let Some(state) = to.registry.at_mut(input.state as usize) {
             if let Some(flow) = batch.flows.get(i) {
@@ -120,6 +126,7 @@ fn write_body(
             user_force: saved.force + own.force,
             user_torque: saved.torque + own.torque,
             steady: batch.flows.get(index).is_none_or(still),
+            at_surface: batch.crossings.get(index).map(|own| own.load),
             context: to.context,
         };
         let mut start = held.start(body, flight, force);
@@ -199,6 +206,8 @@ struct Held<'a> {
     user_torque: Vector,
     /// Whether the fluid's velocity is that of the last step.
     steady: bool,
+    /// Weight, buoyancy and user's force of a body that is cut.
+    at_surface: Option<ForceAndTorque>,
     context: &'a StepContext,
 }
 
@@ -233,6 +242,9 @@ impl Held<'_> {
             learns_turn: input.locks.is_empty(),
             linked: input.linked,
         };
+        if let Some(load) = &self.at_surface {
+            (start.load_force, start.load_torque) = (load.force, load.torque);
+        }
         if input.free {
             start.expected_change = vector(output.end_linear) - start.linear;
             start.expected_turn = vector(output.end_angular) - start.angular;

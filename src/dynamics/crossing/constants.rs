@@ -1,0 +1,141 @@
+//! What a body that is cut by boundaries of fluids needs, made once.
+
+use crate::body::{DryMass, ImmersedBody, Part};
+use crate::dynamics::constants::{BodyConstants, InertiaConstants};
+use crate::dynamics::part_constants::{BodyFrame, PartConstants, coupled_mass};
+use crate::hydro::part_law::place::CoupledMass;
+use crate::hydro::viscous::ViscousLaw;
+use crate::hydro::{AddedMass, Hull};
+use crate::medium::Medium;
+use rapier3d::na::{Matrix3, Vector3};
+
+/// What a body that is cut needs: plate axes about its center of mass, SI units unless said otherwise.
+#[derive(Clone, Debug)]
+pub(crate) struct CrossingConstants {
+    /// Mass scale, kg, and length scale L, m, of the integrator.
+    pub mass: f64,
+    pub length: f64,
+    pub dry_mass: f64,
+    pub dry_inertia: Matrix3<f64>,
+    /// The whole body, and each of its parts; of one part the body is it.
+    pub whole: CutBody,
+    pub parts: Vec<CutBody>,
+    /// Semi-axes of the proxy ellipsoid: how high the body is.
+    pub semi_axes: Vector3<f64>,
+    /// Added mass per unit density about the middle of the volume.
+    pub added_mass: AddedMass,
+    /// What the integrator needs besides the mass: in units of the scales.
+    pub inertia: InertiaConstants<f64>,
+    pub fluids: Vec<CrossingFluid>,
+    /// Whether the body loses energy to waves: not in an ideal fluid.
+    pub radiates: bool,
+}
+
+/// A hull and what it displaces.
+#[derive(Clone, Debug)]
+pub(crate) struct CutBody {
+    pub hull: Hull,
+    /// Largest distance from the center of mass, m.
+    pub radius: f64,
+    /// Volume, m³, and its middle.
+    pub volume: f64,
+    pub middle: Vector3<f64>,
+    /// What the volume of the hull is multiplied by.
+    pub scale: f64,
+}
+
+/// One of the fluids, in units of the scales.
+#[derive(Clone, Debug)]
+pub(crate) struct CrossingFluid {
+    /// kg/m³.
+    pub density: f64,
+    pub parts: Vec<PartConstants<f64>>,
+    pub coupled: CoupledMass<f64>,
+}
+
+impl CutBody {
+    fn new(hull: Hull, volume: f64) -> Self {
+        // Far under a plane all of it is.
+        let radius = hull.radius();
+        let all = hull.under_plane(&Matrix3::identity(), 3.0 * radius, [0.0; 2]);
+        let own = if all.volume > 0.0 { all.volume } else { volume };
+        Self {
+            radius,
+            volume,
+            middle: all.moment / own,
+            scale: volume / own,
+            hull,
+        }
+    }
+}
+
+impl CrossingConstants {
+    /// Of a body whose constants in the uppermost fluid these are; `None` if there is no boundary to cut it.
+    pub fn new(
+        body: &ImmersedBody,
+        dry: &DryMass,
+        medium: &Medium,
+        first: &BodyConstants,
+    ) -> Option<Self> {
+        if !medium.has_surface() {
+            return None;
+        }
+        let hydro = &body.hydro;
+        let turn = first.axes.inverse();
+        let about_center = |hull: &Hull| hull.posed(&turn, &(turn * -dry.center));
+        let mut cut = body.clone();
+        if cut.parts.is_empty() {
+            cut.parts.push(Part::new(hydro.clone()));
+        }
+        let parts = body.parts.iter().map(|part| {
+            let rotation = part.pose.rotation.to_rotation_matrix();
+            let in_body = part
+                .hydro
+                .hull
+                .posed(&rotation, &part.pose.translation.vector);
+            CutBody::new(about_center(&in_body), part.hydro.volume)
+        });
+        let densest = medium
+            .fluids()
+            .map(|fluid| fluid.density())
+            .fold(0.0, f32::max);
+        let added_mass = hydro.added_mass_about(hydro.centroid).rotated(&turn);
+        let mass = dry.mass + f64::from(densest) * added_mass.linear.trace() / 3.0;
+        let frame = BodyFrame {
+            center: dry.center,
+            axes: first.axes,
+            mass,
+            length: first.length,
+        };
+        let fluids = medium.fluids().map(|fluid| CrossingFluid {
+            density: fluid.density().into(),
+            parts: cut
+                .parts
+                .iter()
+                .map(|part| PartConstants::new(part, &cut, fluid, &frame))
+                .collect(),
+            coupled: coupled_mass(&cut, fluid.density().into(), &frame),
+        });
+        Some(Self {
+            mass,
+            length: first.length,
+            dry_mass: dry.mass,
+            dry_inertia: turn.matrix() * dry.inertia * first.axes.matrix(),
+            whole: CutBody::new(about_center(&hydro.hull), hydro.volume),
+            parts: parts.collect(),
+            semi_axes: hydro.proxy.semi_axes,
+            added_mass,
+            inertia: InertiaConstants {
+                dry_mass: dry.mass / mass,
+                ..first.inertia
+            },
+            fluids: fluids.collect(),
+            radiates: body.law != ViscousLaw::Inviscid,
+        })
+    }
+
+    /// Number of parts, at least one.
+    pub fn part_count(&self) -> usize {
+        self.parts.len().max(1)
+    }
+}

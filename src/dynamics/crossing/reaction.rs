@@ -1,0 +1,113 @@
+//! The forces of several fluids on a body, in one substep.
+
+use super::constants::CrossingFluid;
+use super::cut::Portion;
+use crate::dynamics::constants::InertiaConstants;
+use crate::dynamics::load::Load;
+use crate::dynamics::parts::{PartNow, couple, fastest_decay};
+use crate::dynamics::reaction::{Frozen, Reaction, implicitness};
+use crate::hydro::part_law::Exact;
+use crate::hydro::part_law::place::CoupledMass;
+use crate::hydro::viscous::ForceFactors;
+use crate::math::spatial::{Blocks, Twist};
+use rapier3d::na::{Matrix3, Vector3};
+
+/// Share of a part below which its fluid is not asked for its force.
+const NOTHING: f64 = 1e-6;
+
+/// What the fluids do to a body in a substep. Units of the integrator.
+pub(super) struct Fluids<'a> {
+    /// The layers that the body is in.
+    pub fluids: &'a [CrossingFluid],
+    /// What of each part is in each layer, and what goes on there: layer by layer.
+    pub portions: &'a [Portion],
+    pub now: &'a [PartNow<f64>],
+    /// What the lengths of portions are divided by, m.
+    pub length: f64,
+    /// The added mass that couples.
+    pub coupled: CoupledMass<f64>,
+    /// Hydrostatic stiffness, 1/s², and the damping by the waves that the body makes over it, s.
+    pub stiffness: Blocks<f64>,
+    pub radiation: f64,
+}
+
+/// The added mass that couples of a body with these shares in fluids.
+pub(super) fn coupled_mass<'a>(
+    shares: impl Iterator<Item = (f64, &'a CrossingFluid)>,
+) -> CoupledMass<f64> {
+    let mut sum = CoupledMass {
+        m11: Matrix3::zeros(),
+        m12: Matrix3::zeros(),
+        isotropic: 0.0,
+        first: Vector3::zeros(),
+        second: Matrix3::zeros(),
+    };
+    for (share, fluid) in shares {
+        let own = &fluid.coupled;
+        sum.m11 += own.m11 * share;
+        sum.m12 += own.m12 * share;
+        sum.isotropic += own.isotropic * share;
+        sum.first += own.first * share;
+        sum.second += own.second * share;
+    }
+    sum
+}
+
+impl Reaction<f64> for Fluids<'_> {
+    fn least_iterations(&self) -> u32 {
+        1
+    }
+
+    fn increment<const SYMMETRIC: bool>(
+        &self,
+        inertia: &InertiaConstants<f64>,
+        load: &Load<f64>,
+        frozen: &Frozen<f64>,
+        h: f64,
+    ) -> Twist<f64> {
+        let Frozen {
+            start,
+            middle,
+            attitude,
+        } = frozen;
+        let mut applied = load.applied(attitude);
+        let nothing = Matrix3::zeros();
+        let mut n = Blocks {
+            m11: nothing,
+            m12: nothing,
+            m21: nothing,
+            m22: nothing,
+        };
+        let parts = self.fluids.iter().flat_map(|fluid| &fluid.parts);
+        for ((part, portion), now) in parts.zip(self.portions).zip(self.now) {
+            if portion.share < NOTHING {
+                continue;
+            }
+            let mut place = part.place_now(Exact, true, now);
+            place.position += portion.shift / self.length;
+            let factors = ForceFactors {
+                drag: now.factors.drag * portion.share,
+                rotational_lift: now.factors.rotational_lift * portion.share,
+                translational_lift: now.factors.translational_lift * portion.share,
+            };
+            let now = PartNow { factors, ..*now };
+            part.add_in_flow(Exact, &place, &now, frozen, &mut n, &mut applied);
+        }
+        n = n.less_scaled(&self.stiffness, self.radiation);
+        let theta = implicitness(h * fastest_decay(inertia, &n));
+        couple(&self.coupled, inertia, middle, &mut n);
+        let system = inertia.mass_matrix().less_scaled(&n, theta * h);
+        let system = system.less_scaled(&self.stiffness, -0.25 * h * h);
+        let mut right = (n.apply(start) + applied).scaled(h);
+        let restoring = self.stiffness.apply(start).scaled(-0.5 * h * h);
+        right.force += restoring.force;
+        right.torque += restoring.torque;
+        let free = system.solve(&right);
+        if load.locks.any {
+            load.locks
+                .increment(&free, &system, &right, start, attitude, h, theta)
+        } else {
+            free
+        }
+    }
+}

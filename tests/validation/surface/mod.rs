@@ -1,0 +1,3 @@
+//! Bodies at the surface between two fluids.
+
+mod exact;
