@@ -24,8 +24,9 @@ pub(super) struct CrossingMemory {
     pub energy: Option<(f64, Real)>,
     /// Share of its volume under the free surface.
     pub submerged: Real,
-    /// Whether it rests on still fluids, or all but.
-    pub rests: bool,
+    /// Whether it is as good as at rest, and in balance besides, on still fluids.
+    pub slow: bool,
+    pub balanced: bool,
     /// What of each part was in each layer, layer by layer, and the velocity of the fluid there, world axes, m/s.
     pub portions: Vec<Portion>,
     pub velocities: Vec<Vector3<f64>>,
@@ -44,7 +45,8 @@ impl Default for CrossingMemory {
             mass: FluidMass::dry(0.0, Matrix3::zeros()),
             energy: None,
             submerged: 0.0,
-            rests: false,
+            slow: false,
+            balanced: false,
             portions: Vec::new(),
             velocities: Vec::new(),
             now: Vec::new(),
@@ -82,7 +84,8 @@ impl CrossingMemory {
             mass,
             energy: None,
             submerged: if layer == 0 { 0.0 } else { 1.0 },
-            rests: false,
+            slow: false,
+            balanced: false,
             portions: std::mem::take(&mut self.portions),
             velocities: std::mem::take(&mut self.velocities),
             now: std::mem::take(&mut self.now),

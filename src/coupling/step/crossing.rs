@@ -26,7 +26,7 @@ use rapier3d::math::{Real, Vector};
 use rapier3d::na::{Quaternion, Rotation3, Vector3};
 
 /// Share of the weight, and of the speed of waves, below which a floating body may sleep.
-const RESTING: f64 = 0.01;
+const RESTING: f64 = 0.002;
 
 /// One body of a batch that is cut.
 #[derive(Clone, Debug)]
@@ -231,7 +231,8 @@ impl OneStep<'_> {
         let resting = self.environment.medium.is_still();
         memory.energy = resting.then_some((moved.energy, gravity.length()));
         memory.submerged = moved.first.submerged as Real;
-        memory.rests = resting && self.rests(&moved.load, moved.height, &motion);
+        let [slow, balanced] = self.rests(&moved.load, moved.height, &motion);
+        (memory.slow, memory.balanced) = (resting && slow, balanced);
         own.load = ForceAndTorque {
             force: to_real(moved.load.force),
             torque: to_real(moved.load.torque),
@@ -239,16 +240,15 @@ impl OneStep<'_> {
         self.write(&motion, moved.substeps, &velocity, output);
     }
 
-    /// Whether a body is as good as in balance and at rest, so that rapier may let it sleep: forces within
-    /// [`RESTING`] of its weight, and speeds of that of a wave as long as the body is high.
-    fn rests(&self, load: &Wrench<f64>, height: f64, motion: &Motion<f64>) -> bool {
+    /// Whether a body is as good as at rest and in balance, so that rapier may let it sleep: speeds within
+    /// [`RESTING`] of that of a wave as long as the body is high, and forces of its weight.
+    fn rests(&self, load: &Wrench<f64>, height: f64, motion: &Motion<f64>) -> [bool; 2] {
         let gravity = to_f64(self.context.gravity).norm() * f64::from(self.input.gravity_scale);
         let weight = gravity * self.constants.dry_mass * RESTING;
         let speed = RESTING * (gravity * height).sqrt();
         let v = &motion.velocity;
-        load.force.norm() <= weight
-            && load.torque.norm() <= weight * height
-            && v.linear.norm().max(v.angular.norm()) <= speed
+        let balanced = load.force.norm() <= weight && load.torque.norm() <= weight * height;
+        [v.linear.norm().max(v.angular.norm()) <= speed, balanced]
     }
 
     /// Looks at the fluid around each part in each layer.

@@ -235,14 +235,16 @@ pub(super) fn prepare(
         batch.turbulence.push(flight.turbulence);
     }
     let first_part = batch.parts.len() as u32;
-    let mut floats = false;
+    let mut may_sleep = touching;
     if layers.cut {
         let crossing = to.constants.crossing(state.constants)?;
         let mut memory = state.crossing.take().unwrap_or_default();
         if !memory.active && state.flight.continues {
             memory.enter_from(&shared.constants, layer);
         }
-        floats = memory.rests;
+        if medium.is_still() {
+            may_sleep = memory.slow && (touching || memory.balanced);
+        }
         let own = CrossingBody {
             first: layers.first,
             count: layers.last + 1 - layers.first,
@@ -271,7 +273,8 @@ pub(super) fn prepare(
         state: index as u32,
         constants: state.constants,
         free,
-        may_sleep: touching || floats,
+        touching,
+        may_sleep,
         in_contact: normal.is_some(),
         locked,
         system: joints.map_or(NONE, |joints| joints.number),

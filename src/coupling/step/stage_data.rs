@@ -51,7 +51,9 @@ pub(in crate::coupling) struct StepInput {
     pub constants: u32,
     /// Touches nothing and is held by nothing: velocity and pose are written back exactly.
     pub free: bool,
-    /// Is in contact or held, so that rapier may let it sleep.
+    /// Is in contact or held.
+    pub touching: bool,
+    /// Rapier may let it sleep: something holds it, or it rests on a fluid.
     pub may_sleep: bool,
     /// Is in contact; is held by locked axes and nothing else.
     pub in_contact: bool,

@@ -106,7 +106,7 @@ fn write_body(
         constants: input.constants,
         force: body.user_force(),
         torque: body.user_torque(),
-        touching: input.may_sleep,
+        touching: input.touching,
         mean_motion: NONE,
         held: NONE,
     };
@@ -164,6 +164,8 @@ fn write_body(
     if !input.may_sleep {
         // Drifting slowly through water is not resting.
         body.activation_mut().time_since_can_sleep = 0.0;
+    }
+    if !input.touching {
         flight.corrected_contacts = 0;
     }
     // Impulses at a lever can spin a thin body up without bounds: rapier's own limit stays on.

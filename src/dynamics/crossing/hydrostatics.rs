@@ -33,9 +33,8 @@ impl Hydrostatics {
         level: &Rotation3<f64>,
         origin: Vector,
     ) -> Self {
-        let world = |from_center: Vector3<f64>| {
-            origin + to_real(level * (place.center + from_center))
-        };
+        let world =
+            |from_center: Vector3<f64>| origin + to_real(level * (place.center + from_center));
         let under = cut.under(1, &constants.whole, place);
         let mut found = Self {
             submerged_volume: under.volume,
