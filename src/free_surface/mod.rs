@@ -5,6 +5,27 @@
 //! whose up is y they are the world's axes, moved to the level; where up is elsewhere, y is turned to it along the
 //! shortest way.
 
+//!
+//! # What there is
+//! [`Level`] is at rest, [`Waves`] are sums of linear waves, among them [seas](Waves::sea) of a spectrum, and a
+//! [`HeightField`] is looked up. Anything else implements [`FreeSurface`]. [`mesh`] makes triangles of a patch to look at.
+//! Currents are no part of a surface: they are the [flow](crate::flow) of the fluid.
+
+mod dispersion;
+mod fours;
+mod height_field;
+mod mesh;
+mod sea;
+mod spectrum;
+mod waves;
+
+pub use dispersion::Dispersion;
+pub use height_field::{HeightField, HeightGrid};
+pub use mesh::mesh;
+pub use sea::Sea;
+pub use spectrum::WaveSpectrum;
+pub use waves::{Wave, Waves};
+
 use rapier3d::na::Vector3;
 
 /// A free surface at one place.

@@ -6,9 +6,9 @@ mod scalar;
 pub(crate) mod spatial;
 
 pub(crate) use fields::scalar_struct;
-#[cfg(test)]
-pub(crate) use lanes::NARROW;
 pub(crate) use lanes::{Lanes, MOST_LANES, OnLanes, Row, dispatch, row, vector};
+#[cfg(test)]
+pub(crate) use lanes::{NARROW, dispatch_narrow};
 pub(crate) use scalar::Scalar;
 
 use rapier3d::math::{Pose, Rotation, Vector};
