@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::geometry::Surface;
-use crate::hydro::{AddedMass, HydroProperties};
+use crate::hydro::{AddedMass, Hull, HydroProperties};
 use crate::math::to_real;
 use rapier3d::math::Pose;
 use rapier3d::na::Vector3;
@@ -45,7 +45,7 @@ struct Piece<'a> {
 impl<'a> Piece<'a> {
     fn new(shapes: Vec<(Pose, &'a dyn Shape)>, center: Vector3<f64>) -> Result<Self, Error> {
         let surface = Surface::of_parts(&shapes, Surface::from_shape)?;
-        let hydro = HydroProperties::from_surface(&surface, center);
+        let hydro = HydroProperties::with_hull(&surface, Hull::of_parts(&shapes)?, center);
         Ok(Self {
             volume: hydro.volume,
             shapes,

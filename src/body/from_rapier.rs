@@ -4,7 +4,7 @@ use super::DryMass;
 use super::division::{Division, added_mass_of, parts_of};
 use crate::error::Error;
 use crate::geometry::{Surface, rounded_volume};
-use crate::hydro::{Accuracy, HydroProperties};
+use crate::hydro::{Accuracy, Hull, HydroProperties};
 use crate::math::{to_f64, to_quaternion, to_real, to_rotation};
 use rapier3d::dynamics::{
     MassProperties, RigidBody, RigidBodyAdditionalMassProps, RigidBodyHandle, RigidBodySet,
@@ -92,7 +92,7 @@ impl HydroProperties {
             return Err(Error::NoCollider);
         }
         let surface = Surface::of_parts(parts, Surface::from_shape)?;
-        let mut whole = Self::from_surface(&surface, center);
+        let mut whole = Self::with_hull(&surface, Hull::of_parts(parts)?, center);
         whole.parts = parts_of(parts, center, division)?;
         if !whole.parts.is_empty() {
             whole.added_mass = added_mass_of(&whole.parts);

@@ -20,6 +20,7 @@ mod tessellate;
 mod voxels;
 
 pub use ellipsoid::Ellipsoid;
+pub(crate) use quality::check_indices;
 pub(crate) use relief::{Relief, Seen};
 pub use sheet::Sheet;
 pub use surface::{Surface, VolumeIntegrals};

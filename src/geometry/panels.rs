@@ -2,6 +2,7 @@
 //! need them.
 
 use super::graded::{both_ends, one_end};
+use super::revolution::Facets;
 use super::rounded::COARSE;
 use super::tessellate::rounded_surface;
 use super::{Ellipsoid, Surface};
@@ -93,7 +94,13 @@ impl Surface {
 
     /// [`Surface::from_shape`] with wider panels on rounded borders.
     pub(crate) fn panelled_as_is(shape: &dyn Shape) -> Result<Self, Error> {
-        rounded_surface(shape, COARSE)
+        rounded_surface(
+            shape,
+            &Facets {
+                step: COARSE,
+                ..Facets::FINE
+            },
+        )
     }
 
     /// Whether [`Surface::panelled`] makes a better surface of this shape from more cells.

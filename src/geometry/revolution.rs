@@ -5,13 +5,29 @@ use crate::error::Error;
 use rapier3d::na::Vector3;
 use std::f64::consts::{PI, TAU};
 
-/// How many segments go around a round body, and along half a circle of its profile.
-const AROUND: usize = 64;
-const ALONG: usize = 48;
+/// How finely round surfaces are divided into facets.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facets {
+    /// How many go around a body of revolution …
+    pub around: usize,
+    /// … and along half a circle of its profile.
+    pub along: usize,
+    /// Largest angle between neighboring directions of the rounded edges of a polyhedron.
+    pub step: f64,
+}
+
+impl Facets {
+    /// For integrals that are right to about 10⁻³.
+    pub const FINE: Self = Self {
+        around: 64,
+        along: 48,
+        step: PI / 24.0,
+    };
+}
 
 /// Points (distance from the axis, height) of a circular arc between two polar angles.
-pub(super) fn arc(radius: f64, from: f64, to: f64) -> Vec<(f64, f64)> {
-    let segments = (ALONG as f64 * (to - from) / PI).ceil() as usize;
+pub(super) fn arc(radius: f64, from: f64, to: f64, facets: &Facets) -> Vec<(f64, f64)> {
+    let segments = (facets.along as f64 * (to - from) / PI).ceil().max(1.0) as usize;
     (0..=segments)
         .map(|i| {
             let angle = from + (to - from) * i as f64 / segments as f64;
@@ -25,21 +41,26 @@ pub(super) fn arc(radius: f64, from: f64, to: f64) -> Vec<(f64, f64)> {
 
 /// The body of revolution about y of a profile from its top to its bottom, with distances from the
 /// axis scaled so that the volume is exactly `volume`.
-pub(super) fn revolve(profile: &[(f64, f64)], volume: f64) -> Result<Surface, Error> {
+pub(super) fn revolve(
+    profile: &[(f64, f64)],
+    volume: f64,
+    facets: &Facets,
+) -> Result<Surface, Error> {
+    let around = facets.around;
     let build = |scale: f64| {
-        let mut vertices = Vec::with_capacity(profile.len() * AROUND);
+        let mut vertices = Vec::with_capacity(profile.len() * around);
         for (distance, height) in profile {
-            vertices.extend((0..AROUND).map(|i| {
-                let (sin, cos) = (TAU * i as f64 / AROUND as f64).sin_cos();
+            vertices.extend((0..around).map(|i| {
+                let (sin, cos) = (TAU * i as f64 / around as f64).sin_cos();
                 Vector3::new(scale * distance * sin, *height, scale * distance * cos)
             }));
         }
-        let mut triangles = Vec::with_capacity(profile.len() * AROUND * 2);
+        let mut triangles = Vec::with_capacity(profile.len() * around * 2);
         for ring in 0..profile.len() - 1 {
-            for i in 0..AROUND {
-                let next = (i + 1) % AROUND;
-                let [a, b] = [i, next].map(|i| (ring * AROUND + i) as u32);
-                let [c, d] = [i, next].map(|i| ((ring + 1) * AROUND + i) as u32);
+            for i in 0..around {
+                let next = (i + 1) % around;
+                let [a, b] = [i, next].map(|i| (ring * around + i) as u32);
+                let [c, d] = [i, next].map(|i| ((ring + 1) * around + i) as u32);
                 triangles.push([a, c, d]);
                 triangles.push([a, d, b]);
             }
@@ -56,12 +77,13 @@ pub(super) struct RoundBody {
     points: Vec<(f64, f64)>,
     /// What the profile encloses with its arcs round, m³.
     pub(super) volume: f64,
+    facets: Facets,
 }
 
 impl RoundBody {
     /// A cylinder about y, grown by `border` on all sides.
-    pub(super) fn cylinder(r: f64, h: f64, border: f64) -> Self {
-        let mut profile = Self::from_top(h + border);
+    pub(super) fn cylinder(r: f64, h: f64, border: f64, facets: &Facets) -> Self {
+        let mut profile = Self::from_top(h + border, facets);
         profile.line_to((r, h + border));
         profile.arc((r, h), border, 0.0, PI / 2.0);
         profile.line_to((r + border, -h));
@@ -71,11 +93,11 @@ impl RoundBody {
     }
 
     /// A cone about y, its tip up, grown by `border` on all sides.
-    pub(super) fn cone(r: f64, h: f64, border: f64) -> Self {
+    pub(super) fn cone(r: f64, h: f64, border: f64, facets: &Facets) -> Self {
         // The angle of the slope's normal from the axis.
         let slope = (2.0 * h).atan2(r);
         let (sin, cos) = slope.sin_cos();
-        let mut profile = Self::from_top(h + border);
+        let mut profile = Self::from_top(h + border, facets);
         profile.arc((0.0, h), border, 0.0, slope);
         profile.line_to((r + border * sin, -h + border * cos));
         profile.arc((r, -h), border, slope, PI);
@@ -85,14 +107,15 @@ impl RoundBody {
 
     /// Its surface, a polyhedron of exactly its volume.
     pub(super) fn surface(&self) -> Result<Surface, Error> {
-        revolve(&self.points, self.volume)
+        revolve(&self.points, self.volume, &self.facets)
     }
 
     /// Begins on the axis.
-    fn from_top(height: f64) -> Self {
+    fn from_top(height: f64, facets: &Facets) -> Self {
         Self {
             points: vec![(0.0, height)],
             volume: 0.0,
+            facets: *facets,
         }
     }
 
@@ -113,7 +136,7 @@ impl RoundBody {
                 + r.powi(3) * (cos.powi(3) / 3.0 - cos)
         };
         self.volume += PI * (integral(to) - integral(from));
-        let points = arc(r, from, to);
+        let points = arc(r, from, to, &self.facets);
         self.points
             .extend(points.iter().skip(1).map(|(x, y)| (cx + x, cy + y)));
     }

@@ -10,9 +10,7 @@ use rapier3d::na::Vector3;
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Largest angle between neighboring vertices of the sphere, for exact integrals …
-pub(super) const FINE: f64 = PI / 24.0;
-/// … and for boundary elements, of which there may not be too many.
+/// Largest angle between neighboring vertices of the sphere for boundary elements, of which there may not be too many.
 pub(super) const COARSE: f64 = PI / 12.0;
 
 /// The core of a rounded shape. Rotating about the edge from one face's normal to the other's sweeps the
@@ -389,6 +387,7 @@ fn toward(from: Vector3<f64>, to: Vector3<f64>, t: f64) -> Vector3<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::revolution::Facets;
     use super::*;
     use approx::assert_relative_eq;
 
@@ -434,7 +433,7 @@ mod tests {
             ([1.0, 1.0, 1.0], 1e-6),
         ] {
             let core = Core::cuboid(Vector3::from(half));
-            let found = core.grown(r, FINE).unwrap().volume_integrals();
+            let found = core.grown(r, Facets::FINE.step).unwrap().volume_integrals();
             let volume = sections(half, r, |_| 1.0);
             assert_relative_eq!(core.grown_volume(r).unwrap(), volume, max_relative = 1e-9);
             assert_relative_eq!(found.volume, volume, max_relative = 1e-12);
@@ -468,7 +467,7 @@ mod tests {
             for r in [1e-5, 0.02, 1.0, 30.0] {
                 let exact =
                     2.0 * area * r + PI / 2.0 * perimeter * r * r + 4.0 / 3.0 * PI * r.powi(3);
-                let surface = Core::triangle(points).grown(r, FINE).unwrap();
+                let surface = Core::triangle(points).grown(r, Facets::FINE.step).unwrap();
                 let found = surface.volume_integrals();
                 // Products of vertices at the far end of a needle across all axes have lost (length/r)²
                 // of their digits.
@@ -485,6 +484,9 @@ mod tests {
         let mut core = Core::cuboid(Vector3::repeat(1.0));
         core.faces.pop();
         core.normals.pop();
-        assert!(matches!(core.grown(0.1, FINE), Err(Error::OpenMesh { .. })));
+        assert!(matches!(
+            core.grown(0.1, Facets::FINE.step),
+            Err(Error::OpenMesh { .. })
+        ));
     }
 }

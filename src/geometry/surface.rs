@@ -104,6 +104,14 @@ impl Surface {
         Ok(surface)
     }
 
+    /// A surface of triangles of which nothing is known.
+    pub(crate) fn unchecked(vertices: Vec<Vector3<f64>>, triangles: Vec<[u32; 3]>) -> Self {
+        Self {
+            vertices,
+            triangles,
+        }
+    }
+
     /// The volume, which must be more than the rounding of a flat mesh's, or less where it is inside out.
     fn check_volume(&self) -> Result<f64, Error> {
         let (volume, size) = (self.volume_integrals().volume, self.size());
@@ -217,7 +225,7 @@ impl Surface {
     }
 
     /// Each edge must be used once in each direction.
-    fn check_closed(&self) -> Result<(), Error> {
+    pub(crate) fn check_closed(&self) -> Result<(), Error> {
         let mut uses: HashMap<(u32, u32), i32> = HashMap::with_capacity(self.triangles.len() * 2);
         for [a, b, c] in &self.triangles {
             for (i, j) in [(*a, *b), (*b, *c), (*c, *a)] {

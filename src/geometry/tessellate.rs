@@ -1,8 +1,8 @@
 //! Closed surfaces from rapier's shapes.
 
 use super::Surface;
-use super::revolution::{RoundBody, arc, revolve};
-use super::rounded::{Core, FINE};
+use super::revolution::{Facets, RoundBody, arc, revolve};
+use super::rounded::Core;
 use super::voxels;
 use crate::error::Error;
 use crate::math::to_f64;
@@ -11,7 +11,10 @@ use rapier3d::parry::shape::{
     ConvexPolyhedron, RoundCone, RoundConvexPolyhedron, RoundCuboid, RoundCylinder, RoundTriangle,
     Shape, TypedShape,
 };
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+/// Share of its size that the surface of [`Surface::of_hull`] may be off a round one by, before the volume is made exact.
+const HULL_ERROR: f64 = 0.01;
 
 impl Surface {
     /// The surface of a shape of a rapier collider, in the shape's own frame.
@@ -42,9 +45,19 @@ impl Surface {
     /// # Ok::<(), rapier3d_immersed::Error>(())
     /// ```
     pub fn from_shape(shape: &dyn Shape) -> Result<Self, Error> {
+        Self::divided(shape, &Facets::FINE)
+    }
+
+    /// The surface of a shape with as few facets as its waterplane needs to be right to about 1 %, for what is done
+    /// at each step. Its volume is exact.
+    pub(crate) fn of_hull(shape: &dyn Shape) -> Result<Self, Error> {
+        Self::divided(shape, &facets_of_hull(shape))
+    }
+
+    fn divided(shape: &dyn Shape, facets: &Facets) -> Result<Self, Error> {
         let none = |shape| Err(Error::ShapeWithoutVolume { shape });
         match shape.as_typed_shape() {
-            TypedShape::Ball(s) => ball(length("radius", s.radius)?),
+            TypedShape::Ball(s) => ball(length("radius", s.radius)?, facets),
             TypedShape::Cuboid(s) => {
                 for (name, value) in HALF_EXTENTS.iter().zip(s.half_extents.to_array()) {
                     length(name, value)?;
@@ -54,12 +67,12 @@ impl Surface {
             TypedShape::Capsule(s) => {
                 let r = length("radius", s.radius)?;
                 let h = length_or_zero("half height", s.half_height())?;
-                let mut profile = arc(r, 0.0, PI / 2.0);
+                let mut profile = arc(r, 0.0, PI / 2.0, facets);
                 profile.iter_mut().for_each(|p| p.1 += h);
-                let lower = arc(r, PI / 2.0, PI);
+                let lower = arc(r, PI / 2.0, PI, facets);
                 profile.extend(lower.iter().map(|p| (p.0, p.1 - h)));
                 let volume = PI * r * r * (4.0 / 3.0 * r + 2.0 * h);
-                let along_y = revolve(&profile, volume)?;
+                let along_y = revolve(&profile, volume, facets)?;
                 if h == 0.0 {
                     // A segment of no length has no direction, and its rotation is not a number.
                     let center = to_f64(s.center());
@@ -74,25 +87,30 @@ impl Surface {
                 revolve(
                     &[(0.0, h), (r, h), (r, -h), (0.0, -h)],
                     2.0 * PI * r * r * h,
+                    facets,
                 )
             }
             TypedShape::Cone(s) => {
                 let r = length("radius", s.radius)?;
                 let h = length("half_height", s.half_height)?;
-                revolve(&[(0.0, h), (r, -h), (0.0, -h)], 2.0 / 3.0 * PI * r * r * h)
+                revolve(
+                    &[(0.0, h), (r, -h), (0.0, -h)],
+                    2.0 / 3.0 * PI * r * r * h,
+                    facets,
+                )
             }
             TypedShape::ConvexPolyhedron(s) => from_polyhedron(s.to_trimesh()),
             TypedShape::TriMesh(s) => from_mesh((s.vertices().to_vec(), s.indices().to_vec())),
             TypedShape::Voxels(s) => voxels::surface(s),
             TypedShape::Compound(s) => {
                 let parts: Vec<_> = s.shapes().iter().map(|(p, s)| (*p, s.as_ref())).collect();
-                Self::of_parts(&parts, Self::from_shape)
+                Self::of_parts(&parts, |part| Self::divided(part, facets))
             }
             TypedShape::RoundCuboid(_)
             | TypedShape::RoundCylinder(_)
             | TypedShape::RoundCone(_)
             | TypedShape::RoundConvexPolyhedron(_)
-            | TypedShape::RoundTriangle(_) => rounded_surface(shape, FINE),
+            | TypedShape::RoundTriangle(_) => rounded_surface(shape, facets),
             TypedShape::HalfSpace(_) => none("half-space"),
             TypedShape::HeightField(_) => none("height field"),
             TypedShape::Polyline(_) => none("polyline"),
@@ -127,15 +145,43 @@ impl Surface {
 
 /// The volume of a shape with its rounded border, m³; `None` if it has no border.
 pub(crate) fn rounded_volume(shape: &dyn Shape) -> Result<Option<f64>, Error> {
-    let rounded = Rounded::of(shape)?;
+    let rounded = Rounded::of(shape, &Facets::FINE)?;
     rounded.map(|rounded| rounded.volume()).transpose()
 }
 
-/// The surface of a shape with a rounded border, the directions of its neighboring vertices at most `step`
-/// apart; that of any other shape as it is.
-pub(super) fn rounded_surface(shape: &dyn Shape, step: f64) -> Result<Surface, Error> {
-    match Rounded::of(shape)? {
-        Some(rounded) => rounded.surface(step),
+/// Facets for [`Surface::of_hull`]. A border that is narrow beside the body needs but few: what they are off its arc
+/// by is some share of the second of the body's three dimensions, on which its waterplane depends in any attitude but
+/// flat.
+fn facets_of_hull(shape: &dyn Shape) -> Facets {
+    let mut half = shape.compute_local_aabb().half_extents().to_array();
+    half.sort_by(f32::total_cmp);
+    let border = match shape.as_typed_shape() {
+        TypedShape::Capsule(s) => s.radius,
+        TypedShape::RoundCuboid(s) => s.border_radius,
+        TypedShape::RoundCylinder(s) => s.border_radius,
+        TypedShape::RoundCone(s) => s.border_radius,
+        TypedShape::RoundConvexPolyhedron(s) => s.border_radius,
+        TypedShape::RoundTriangle(s) => s.border_radius,
+        _ => half[1],
+    };
+    let share = HULL_ERROR * f64::from(half[1] / border);
+    // What is not a number is found when the surface is made.
+    let step = if share < 1.0 - FRAC_PI_4.cos() {
+        2.0 * (1.0 - share).acos()
+    } else {
+        FRAC_PI_2
+    };
+    Facets {
+        around: 24,
+        along: (PI / step).ceil() as usize,
+        step: step * (1.0 + 1e-9),
+    }
+}
+
+/// The surface of a shape with a rounded border; that of any other shape with the facets of fine ones.
+pub(super) fn rounded_surface(shape: &dyn Shape, facets: &Facets) -> Result<Surface, Error> {
+    match Rounded::of(shape, facets)? {
+        Some(rounded) => rounded.surface(facets),
         None => Surface::from_shape(shape),
     }
 }
@@ -151,11 +197,11 @@ enum Rounded {
 }
 
 impl Rounded {
-    fn of(shape: &dyn Shape) -> Result<Option<Self>, Error> {
+    fn of(shape: &dyn Shape, facets: &Facets) -> Result<Option<Self>, Error> {
         Ok(Some(match shape.as_typed_shape() {
             TypedShape::RoundCuboid(s) => Self::cuboid(s)?,
-            TypedShape::RoundCylinder(s) => Self::cylinder(s)?,
-            TypedShape::RoundCone(s) => Self::cone(s)?,
+            TypedShape::RoundCylinder(s) => Self::cylinder(s, facets)?,
+            TypedShape::RoundCone(s) => Self::cone(s, facets)?,
             TypedShape::RoundConvexPolyhedron(s) => Self::polyhedron(s)?,
             TypedShape::RoundTriangle(s) => Self::triangle(s)?,
             _ => return Ok(None),
@@ -171,21 +217,21 @@ impl Rounded {
         Ok(Self::Grown(Core::cuboid(half), border))
     }
 
-    fn cylinder(s: &RoundCylinder) -> Result<Self, Error> {
+    fn cylinder(s: &RoundCylinder, facets: &Facets) -> Result<Self, Error> {
         let border = length_or_zero("border_radius", s.border_radius)?;
         let r = core_length("radius", s.inner_shape.radius, border)?;
         let h = core_length("half_height", s.inner_shape.half_height, border)?;
-        Ok(Self::Revolved(RoundBody::cylinder(r, h, border)))
+        Ok(Self::Revolved(RoundBody::cylinder(r, h, border, facets)))
     }
 
-    fn cone(s: &RoundCone) -> Result<Self, Error> {
+    fn cone(s: &RoundCone, facets: &Facets) -> Result<Self, Error> {
         let border = length_or_zero("border_radius", s.border_radius)?;
         let r = core_length("radius", s.inner_shape.radius, border)?;
         let h = core_length("half_height", s.inner_shape.half_height, border)?;
         if r == 0.0 && h == 0.0 {
             return Ok(Self::Ball(border));
         }
-        Ok(Self::Revolved(RoundBody::cone(r, h, border)))
+        Ok(Self::Revolved(RoundBody::cone(r, h, border, facets)))
     }
 
     fn triangle(s: &RoundTriangle) -> Result<Self, Error> {
@@ -213,11 +259,11 @@ impl Rounded {
         }
     }
 
-    fn surface(&self, step: f64) -> Result<Surface, Error> {
+    fn surface(&self, facets: &Facets) -> Result<Surface, Error> {
         match self {
-            Self::Ball(r) => ball(*r),
+            Self::Ball(r) => ball(*r, facets),
             Self::Revolved(body) => body.surface(),
-            Self::Grown(core, border) => core.grown(*border, step),
+            Self::Grown(core, border) => core.grown(*border, facets.step),
         }
     }
 }
@@ -253,8 +299,12 @@ fn polyhedron(s: &ConvexPolyhedron) -> Result<Core, Error> {
     Ok(Core::polyhedron(points, faces.collect(), &normals))
 }
 
-fn ball(radius: f64) -> Result<Surface, Error> {
-    revolve(&arc(radius, 0.0, PI), 4.0 / 3.0 * PI * radius.powi(3))
+fn ball(radius: f64, facets: &Facets) -> Result<Surface, Error> {
+    revolve(
+        &arc(radius, 0.0, PI, facets),
+        4.0 / 3.0 * PI * radius.powi(3),
+        facets,
+    )
 }
 
 fn from_mesh((vertices, triangles): (Vec<Vector>, Vec<[u32; 3]>)) -> Result<Surface, Error> {

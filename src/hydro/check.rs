@@ -4,6 +4,9 @@
 use super::HydroProperties;
 use crate::error::Error;
 
+/// How far the volume of a hull may be from the displaced one, as a share of it.
+const HULL_ROUNDING: f64 = 1e-3;
+
 impl HydroProperties {
     /// Checks every number.
     ///
@@ -20,7 +23,7 @@ impl HydroProperties {
     ///
     /// # Errors
     /// [`Error::InvalidParameter`], [`Error::OutOfRange`], [`Error::NotFinite`] or
-    /// [`Error::UnphysicalAddedMass`] names the first that cannot be.
+    /// [`Error::UnphysicalAddedMass`] names the first that cannot be; those of [`Hull::check`](crate::Hull::check).
     pub fn check(&self) -> Result<(), Error> {
         Error::check_positive("displaced volume", self.volume)?;
         Error::check_all_finite("center of buoyancy", self.centroid.as_slice())?;
@@ -70,6 +73,14 @@ impl HydroProperties {
         if let Some(bluff) = &self.bluff {
             bluff.check()?;
         }
+        self.hull.check()?;
+        let enclosed = self.hull.volume() / self.volume;
+        Error::check(
+            "volume that the hull encloses over the displaced volume",
+            enclosed,
+            (enclosed - 1.0).abs() <= HULL_ROUNDING,
+            "1 within 1e-3",
+        )?;
         for part in &self.parts {
             let nested = part.parts.len() as f64;
             Error::check("parts of a part", nested, nested == 0.0, "none")?;
@@ -126,6 +137,30 @@ mod tests {
                 *field(&mut bad) = *value;
                 assert!(bad.check().is_err(), "{name} {value}");
             }
+        }
+        // A hull that encloses another volume, a hole, a corner that is no number, and one that is not there.
+        type Change = fn(&mut Vec<rapier3d::na::Vector3<f64>>, &mut Vec<[u32; 3]>);
+        let changes: [(Change, &str); 4] = [
+            (
+                |v, _| v.iter_mut().for_each(|v| v.x *= 1.01),
+                "the hull encloses",
+            ),
+            (|_, t| t.truncate(11), "edge"),
+            (|v, _| v[1].y = f64::NAN, "vertex 1"),
+            (|_, t| t[0][1] = 99, "99"),
+        ];
+        for (change, named) in changes {
+            let mut bad = good.clone();
+            let super::super::Hull::Polyhedron {
+                vertices,
+                triangles,
+            } = &mut bad.hull
+            else {
+                panic!("a box is a polyhedron");
+            };
+            change(vertices, triangles);
+            let problem = bad.check().unwrap_err().to_string();
+            assert!(problem.contains(named), "{problem}");
         }
         let mut point = good.clone();
         point.proxy.semi_axes *= 0.0;

@@ -38,7 +38,8 @@ pub struct HydroProperties {
     /// What the law of bodies that are not plates knows of the shape; `None` for a thin plate, and where
     /// nothing but the proxy is known.
     pub bluff: Option<BluffShape>,
-    /// The closed surface, as a free surface cuts it.
+    /// The closed surface that a free surface cuts, in the frame. It encloses `volume`; of round shapes it has few
+    /// facets.
     pub hull: Hull,
     /// The surfaces that the shape consists of, if it is more than one to the fluid: in the same frame, and
     /// without parts of their own.
@@ -62,16 +63,15 @@ impl HydroProperties {
     /// # Ok::<(), rapier3d_immersed::Error>(())
     /// ```
     pub fn from_shape(shape: &dyn Shape) -> Result<Self, Error> {
-        Ok(Self::from_surface(
-            &Surface::from_shape(shape)?,
-            Vector3::zeros(),
-        ))
+        let surface = Surface::from_shape(shape)?;
+        let hull = Hull::from_shape(shape)?;
+        Ok(Self::with_hull(&surface, hull, Vector3::zeros()))
     }
 
     /// Properties of a closed surface, referred to `reference`, with the added mass of the proxy
     /// ellipsoid.
     ///
-    /// [`Accuracy`](super::Accuracy) says how good that proxy is.
+    /// [`Accuracy`](super::Accuracy) says how good that proxy is. The [hull](HydroProperties::hull) is the surface itself.
     ///
     /// ```
     /// use rapier3d_immersed::HydroProperties;
@@ -85,6 +85,11 @@ impl HydroProperties {
     /// # Ok::<(), rapier3d_immersed::Error>(())
     /// ```
     pub fn from_surface(surface: &Surface, reference: Vector3<f64>) -> Self {
+        Self::with_hull(surface, Hull::from_surface(surface), reference)
+    }
+
+    /// Properties of a closed surface with a hull that stands for it.
+    pub(crate) fn with_hull(surface: &Surface, hull: Hull, reference: Vector3<f64>) -> Self {
         let integrals = surface.volume_integrals();
         let axes = principal_axes(surface, &integrals.second_moment);
         let mut planform = Planform::new(surface, &integrals, axes);
@@ -123,7 +128,7 @@ impl HydroProperties {
             planform,
             proxy,
             bluff,
-            hull: Hull::from_surface(surface),
+            hull,
             parts: Vec::new(),
         }
     }

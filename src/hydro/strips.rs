@@ -1,6 +1,6 @@
 //! Strips of a plate across its longest axis, for wings and blades whose sections meet different flows.
 
-use super::{AddedMass, HydroProperties, Planform};
+use super::{AddedMass, Hull, HydroProperties, Planform};
 use crate::error::Error;
 use crate::geometry::Surface;
 use rapier3d::na::{Vector2, Vector3};
@@ -12,7 +12,8 @@ impl HydroProperties {
     /// Each is a [`Part`](crate::Part) that sees the velocity of its own middle, so that what a rotation does to the
     /// flow along the span comes by itself: the speed of a blade's tip, the roll damping of a wing. Each has the
     /// aspect ratio of the whole ([`Planform::fraction`]), so that together they lift and drag like it, and its own mean
-    /// chord, so that a tapered or swept wing has its pressure where its sections have theirs.
+    /// chord, so that a tapered or swept wing has its pressure where its sections have theirs. Volume, centroid and
+    /// [hull](HydroProperties::hull) are those of its own slice.
     ///
     /// ```
     /// use rapier3d_immersed::rapier3d::prelude::*;
@@ -62,6 +63,7 @@ impl HydroProperties {
         let high = along().fold(f64::NEG_INFINITY, f64::max);
         let width = (high - low) / count as f64;
         let height = (to_plate * whole.centroid).z;
+        let span = axes * Vector3::x();
         let strips = (0..count).map(|i| {
             let from = low + width * i as f64;
             let mut pieces = Vec::new();
@@ -71,7 +73,8 @@ impl HydroProperties {
                     pieces.push([inside[0], inside[i - 1], inside[i]]);
                 }
             }
-            strip(&whole, &pieces, height, width)
+            let hull = whole.hull.slice(&span, from, from + width)?;
+            strip(&whole, &pieces, height, width, hull)
         });
         Ok(strips.flatten().collect())
     }
@@ -101,6 +104,7 @@ fn strip(
     pieces: &[[Vector3<f64>; 3]],
     height: f64,
     width: f64,
+    hull: Hull,
 ) -> Option<HydroProperties> {
     let plate = &whole.planform;
     // Every line along the normal crosses the surface twice, hence the half.
@@ -132,8 +136,8 @@ fn strip(
     let mut half_extents = plate.half_extents;
     half_extents.y = 0.5 * area / width;
     Some(HydroProperties {
-        volume: whole.volume * fraction,
-        centroid: center,
+        volume: hull.volume(),
+        centroid: hull.centroid(),
         reference: center,
         added_mass: AddedMass {
             linear: about_middle.linear * fraction,
@@ -151,7 +155,7 @@ fn strip(
         },
         proxy: whole.proxy,
         bluff: None,
-        hull: whole.hull.clone(),
+        hull,
         parts: Vec::new(),
     })
 }
@@ -176,6 +180,16 @@ mod tests {
             assert!((area / plate.area - 1.0).abs() < 1e-9, "{area}");
             assert!((sum(&|s| s.planform.fraction) - 1.0).abs() < 1e-9);
             assert!((sum(&|s| s.volume) / whole.volume - 1.0).abs() < 1e-9);
+            // Their slices are closed: cut level, their waterplanes add up to that of the whole, and their own
+            // volumes are theirs.
+            let surface = Surface::from_shape(shape).unwrap();
+            let turn = rapier3d::na::Rotation3::from_euler_angles(0.4, 0.3, 0.2);
+            let under = |hull: &Hull| hull.under_plane(turn.matrix(), 0.01, [0.1, 0.2]);
+            let cut = under(&Hull::from_surface(&surface));
+            let area = sum(&|s| under(&s.hull).waterplane.area);
+            assert!((area / cut.waterplane.area - 1.0).abs() < 1e-9, "{area}");
+            let volume = sum(&|s| under(&s.hull).volume);
+            assert!((volume / cut.volume - 1.0).abs() < 1e-9, "{volume}");
             let steiner = sum(&|s| {
                 let away = plate.axes.inverse() * (s.planform.center - plate.center);
                 s.planform.second_moment.y + s.planform.area * away.x * away.x

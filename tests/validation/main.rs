@@ -12,6 +12,7 @@ mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod fuzz;
 mod held;
+mod hull;
 mod impact;
 mod induced_drag;
 mod kirchhoff;

@@ -11,8 +11,8 @@ mod thesis_laws;
 
 use crate::support;
 use rapier3d_immersed::geometry::Ellipsoid;
-use rapier3d_immersed::rapier3d::na::Vector3;
-use rapier3d_immersed::{AddedMass, DryMass, ImmersedBody};
+use rapier3d_immersed::rapier3d::na::{Rotation3, Vector3};
+use rapier3d_immersed::{AddedMass, DryMass, Hull, ImmersedBody};
 
 /// A uniform sphere to the last digit, without what the facets of its surface leave: its proxy is round, its
 /// added mass half of what it displaces.
@@ -25,6 +25,11 @@ fn sphere(radius: f64, density: f64) -> (ImmersedBody, DryMass) {
     // Its law knows nothing but the proxy.
     body.hydro.bluff = None;
     body.hydro.volume = proxy.volume();
+    body.hydro.hull = Hull::Ellipsoid {
+        center: body.hydro.centroid,
+        axes: Rotation3::identity(),
+        shape: proxy,
+    };
     body.hydro.proxy = proxy;
     body.hydro.added_mass = AddedMass::diagonal(half, Vector3::zeros());
     dry.inertia *= density * proxy.volume() / dry.mass;
