@@ -25,8 +25,10 @@ use rapier3d::dynamics::RigidBody;
 use rapier3d::math::{Real, Vector};
 use rapier3d::na::{Quaternion, Rotation3, Vector3};
 
-/// Share of the weight, and of the speed of waves, below which a floating body may sleep.
-const RESTING: f64 = 0.002;
+/// Share of the weight below which what is left of it and buoyancy lets a floating body sleep …
+const BALANCED: f64 = 0.002;
+/// … and share of the speed of a wave as long as the body is high.
+const SLOW: f64 = 0.01;
 
 /// One body of a batch that is cut.
 #[derive(Clone, Debug)]
@@ -241,11 +243,11 @@ impl OneStep<'_> {
     }
 
     /// Whether a body is as good as at rest and in balance, so that rapier may let it sleep: speeds within
-    /// [`RESTING`] of that of a wave as long as the body is high, and forces of its weight.
+    /// [`SLOW`] of that of a wave as long as the body is high, and forces within [`BALANCED`] of its weight.
     fn rests(&self, load: &Wrench<f64>, height: f64, motion: &Motion<f64>) -> [bool; 2] {
         let gravity = to_f64(self.context.gravity).norm() * f64::from(self.input.gravity_scale);
-        let weight = gravity * self.constants.dry_mass * RESTING;
-        let speed = RESTING * (gravity * height).sqrt();
+        let weight = gravity * self.constants.dry_mass * BALANCED;
+        let speed = SLOW * (gravity * height).sqrt();
         let v = &motion.velocity;
         let balanced = load.force.norm() <= weight && load.torque.norm() <= weight * height;
         [v.linear.norm().max(v.angular.norm()) <= speed, balanced]

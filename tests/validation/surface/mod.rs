@@ -2,7 +2,9 @@
 
 mod energy;
 mod exact;
+mod layers;
 mod together;
+mod waves;
 
 use rapier3d::prelude::*;
 use rapier3d_immersed::rapier3d;
