@@ -463,3 +463,17 @@ fn hulls_of_bodies() {
     assert!(matches!(whole.parts[0].hull, Hull::Ellipsoid { .. }));
     assert_eq!(properties(Division::Whole).hull, whole.hull);
 }
+
+/// Hulls that are written and read are the same.
+#[cfg(feature = "serde-serialize")]
+#[test]
+fn hulls_are_written_and_read() {
+    let ball = SharedShape::ball(0.25);
+    let pair = SharedShape::compound(vec![
+        (Pose::from_translation(Vector::X), ball),
+        (Pose::IDENTITY, SharedShape::cuboid(0.25, 0.5, 0.75)),
+    ]);
+    let hull = Hull::from_shape(pair.as_ref()).unwrap();
+    let text = serde_json::to_string(&hull).unwrap();
+    assert_eq!(serde_json::from_str::<Hull>(&text).unwrap(), hull);
+}

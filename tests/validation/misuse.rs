@@ -186,7 +186,7 @@ fn what_has_gone_is_forgotten() {
     let mut sizes = Vec::new();
     for i in 0..4000 {
         let (handle, _) = leaf(&mut world);
-        hydro.volume *= 1.0 + 1e-6;
+        hydro.volume *= 1.0 + 1e-7;
         immersion.insert(handle, hydro.clone());
         immersion.step(&mut world);
         alive.push_back(handle);

@@ -241,10 +241,7 @@ impl Hull {
             Self::Ellipsoid { .. } => {
                 self.under_plane(&Matrix3::identity(), f64::INFINITY, [0.0, 0.0])
             }
-            Self::Several(hulls) => hulls.iter().fold(Submerged::default(), |mut sum, hull| {
-                sum += hull.whole();
-                sum
-            }),
+            Self::Several(hulls) => sum_of(hulls, Self::whole),
         }
     }
 
@@ -317,7 +314,8 @@ impl Hull {
                 depth,
                 &normal,
             ),
-            _ => self.cut(turn, &|r: &Vector3<f64>| depth - normal.dot(r)),
+            Self::Polyhedron { .. } => self.cut(turn, &|r: &Vector3<f64>| depth - normal.dot(r)),
+            Self::Several(hulls) => sum_of(hulls, |hull| hull.under_plane(turn, depth, slope)),
         }
     }
 
@@ -359,13 +357,15 @@ impl Hull {
                     _ => under_many(vertices, triangles, place),
                 }
             }
-            Self::Several(hulls) => {
-                let mut sum = Submerged::default();
-                for hull in hulls {
-                    sum += hull.cut(turn, depth);
-                }
-                sum
-            }
+            Self::Several(hulls) => sum_of(hulls, |hull| hull.cut(turn, depth)),
         }
     }
+}
+
+fn sum_of(hulls: &[Hull], of: impl Fn(&Hull) -> Submerged) -> Submerged {
+    let mut sum = Submerged::default();
+    for hull in hulls {
+        sum += of(hull);
+    }
+    sum
 }
