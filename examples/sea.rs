@@ -1,10 +1,8 @@
-//! A random sea from above, and its spectrum against the one that was asked for.
+//! A random sea from above, and its spectrum against the one that was asked for: a picture, nothing is printed.
 //!
 //! ```text
-//! cargo run --release --example sea -- out/sea.svg
+//! cargo run --release --example sea -- sea.svg
 //! ```
-//!
-//! Prints the significant height and the mean period of records at one place.
 
 use plotters::prelude::*;
 use rapier3d_immersed::free_surface::{FreeSurface, Sea, WaveSpectrum, Waves};
@@ -35,31 +33,18 @@ fn density(sea: &Sea) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
         }
     }
     let bin = TAU / (STEP * SAMPLES as f64);
-    let [m0, m2] = [0, 2].map(|order| {
-        let moments = power.iter().enumerate();
-        moments
-            .map(|(m, p)| (m as f64 * bin).powi(order) * p)
-            .sum::<f64>()
-    });
-    let (height, period) = (4.0 * m0.sqrt(), TAU * (m0 / m2).sqrt());
-    println!("significant height {height:.2} m, mean period {period:.2} s");
     let edge = |i: i32| (0.4 * 1.04_f64.powi(i) / bin).round() as usize;
-    let bands = (0..60).map(|i| (edge(i), edge(i + 1)));
-    let density = bands.map(|(from, to)| {
-        let frequency = bin * (from + to - 1) as f64 / 2.0;
+    let density = (0..60).map(|i| {
+        let (from, to) = (edge(i), edge(i + 1));
         let sum: f64 = power[from..to].iter().sum();
+        let frequency = bin * (from + to - 1) as f64 / 2.0;
         (frequency, sum / bin / (to - from) as f64)
     });
     Ok(density.collect())
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args().nth(1).unwrap_or("out/sea.svg".to_owned());
-    std::fs::create_dir_all(
-        std::path::Path::new(&path)
-            .parent()
-            .ok_or("no such folder")?,
-    )?;
+    let path = std::env::args().nth(1).unwrap_or("sea.svg".to_owned());
     let spectrum = WaveSpectrum::jonswap(2.0, 6.0, 3.3)?;
     let sea = Sea {
         spectrum,
@@ -71,10 +56,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let root = SVGBackend::new(&path, (1240, 600)).into_drawing_area();
     root.fill(&WHITE)?;
+    let font = ("sans-serif", 20);
     let (left, right) = root.split_horizontally(610);
-    let caption = "JONSWAP sea, 2 m and 6 s, running to the right";
     let mut map = ChartBuilder::on(&left)
-        .caption(caption, ("sans-serif", 20))
+        .caption("JONSWAP sea, 2 m and 6 s, to the right", font)
         .margin(12)
         .x_label_area_size(40)
         .y_label_area_size(50)
@@ -92,10 +77,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }))?;
 
     let mut chart = ChartBuilder::on(&right)
-        .caption(
-            "Records of 40 seeds (dots), spectrum (line)",
-            ("sans-serif", 20),
-        )
+        .caption("Records of 40 seeds (dots), spectrum (line)", font)
         .margin(12)
         .x_label_area_size(40)
         .y_label_area_size(60)
@@ -107,11 +89,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         .draw()?;
     let line = (0..400).map(|i| 0.4 * 11f64.powf(f64::from(i) / 400.0));
     let line = line.map(|frequency| (frequency, spectrum.density(frequency)));
-    chart.draw_series(LineSeries::new(
-        line.filter(|point| point.1 > 2e-4),
-        BLUE.stroke_width(2),
-    ))?;
-    let dots = density(&sea)?.into_iter().filter(|point| point.1 > 2e-4);
+    let shown = |point: &(f64, f64)| point.1 > 2e-4;
+    chart.draw_series(LineSeries::new(line.filter(shown), BLUE.stroke_width(2)))?;
+    let dots = density(&sea)?.into_iter().filter(shown);
     chart.draw_series(dots.map(|point| Circle::new(point, 3, RED.filled())))?;
     root.present()?;
     Ok(())

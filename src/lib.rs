@@ -28,6 +28,7 @@
 //! | choose how the fluid pushes back | [`ImmersedBody`], [`ViscousLaw`] |
 //! | know what a shape's added mass is | [`HydroProperties::added_mass`], [`Accuracy`], [`boundary_element`] |
 //! | let the fluid move | [`flow`], [`turbulence`] |
+//! | give water a surface, with waves | [`free_surface`] |
 //! | see every force on a body | [`Immersion::forces`] |
 //! | steer how a body falls | [`Immersion::set_control`], [`Immersion::replay`], [`training`] |
 //! | fly one body without rapier, in f64 | [`FreeBody`] |

@@ -135,21 +135,26 @@ fn cos_sin<S: Simd>(turns: f64x4<S>) -> [f64x4<S>; 2] {
     let rest = turns - ((turns + WHOLE) - WHOLE);
     let x = rest * core::f64::consts::FRAC_PI_2;
     let square = x * x;
-    let series = |numbers: [f64; 7]| {
-        let [first, others @ ..] = numbers;
-        let mut sum = square * first + others[0];
-        for number in &others[1..] {
-            sum = sum * square + *number;
-        }
-        sum
-    };
-    let sin = x * series(PER_ODD_FACTORIAL);
-    let cos = series(PER_EVEN_FACTORIAL) * square + 1.0;
-    let double = |[cos, sin]: [f64x4<S>; 2]| {
-        let twice = sin + sin;
-        [1.0 - twice * sin, twice * cos]
-    };
-    double(double([cos, sin]))
+    let sin = x * series(square, PER_ODD_FACTORIAL);
+    let cos = series(square, PER_EVEN_FACTORIAL) * square + 1.0;
+    doubled(doubled([cos, sin]))
+}
+
+/// Cosine and sine of twice the angle.
+#[inline(always)]
+fn doubled<S: Simd>([cos, sin]: [f64x4<S>; 2]) -> [f64x4<S>; 2] {
+    let twice = sin + sin;
+    [1.0 - twice * sin, twice * cos]
+}
+
+/// A polynomial, its highest power first.
+#[inline(always)]
+fn series<S: Simd, const N: usize>(x: f64x4<S>, coefficients: [f64; N]) -> f64x4<S> {
+    let mut sum = x * coefficients[0] + coefficients[1];
+    for coefficient in &coefficients[2..] {
+        sum = sum * x + *coefficient;
+    }
+    sum
 }
 
 /// Coefficients of the series of the sine from x¹³ to x, and of the cosine from x¹⁴ to x².
@@ -176,23 +181,25 @@ const PER_EVEN_FACTORIAL: [f64; 7] = [
 #[inline(always)]
 fn exponential<S: Simd>(x: f64x4<S>) -> f64x4<S> {
     let x = x.max(-40.0) * (1.0 / 64.0);
-    let mut sum = x * (1.0 / 40_320.0) + 1.0 / 5040.0;
-    for number in [
-        1.0 / 720.0,
-        1.0 / 120.0,
-        1.0 / 24.0,
-        1.0 / 6.0,
-        0.5,
-        1.0,
-        1.0,
-    ] {
-        sum = sum * x + number;
-    }
+    let mut sum = series(x, PER_FACTORIAL);
     for _ in 0..6 {
         sum *= sum;
     }
     sum
 }
+
+/// Coefficients of the series of e^x from x⁸ to 1.
+const PER_FACTORIAL: [f64; 9] = [
+    1.0 / 40_320.0,
+    1.0 / 5040.0,
+    1.0 / 720.0,
+    1.0 / 120.0,
+    1.0 / 24.0,
+    1.0 / 6.0,
+    0.5,
+    1.0,
+    1.0,
+];
 
 #[cfg(test)]
 mod tests {

@@ -200,7 +200,7 @@ impl HeightField {
     pub fn new(grid: HeightGrid, heights: Vec<f32>) -> Result<Self, Error> {
         grid.check()?;
         Error::check_length("heights", grid.len(), heights.len())?;
-        check_finite("heights", heights.iter())?;
+        check_finite("heights", &heights)?;
         let [nx, nz] = grid.nodes;
         let cubic = [nx, nz, grid.frames].iter().filter(|n| **n > 1).count();
         let largest = heights
@@ -220,7 +220,7 @@ impl HeightField {
     /// If there are not as many as heights, or one is not finite.
     pub fn with_velocities(mut self, velocities: Vec<[f32; 2]>) -> Result<Self, Error> {
         Error::check_length("velocities", self.heights.len(), velocities.len())?;
-        check_finite("velocities", velocities.as_flattened().iter())?;
+        check_finite("velocities", velocities.as_flattened())?;
         self.velocities = velocities;
         Ok(self)
     }
@@ -391,17 +391,13 @@ impl HeightField {
 }
 
 /// An error that names the first number that is not finite.
-fn check_finite<'a>(
-    what: &'static str,
-    mut numbers: impl Iterator<Item = &'a f32> + Clone,
-) -> Result<(), Error> {
-    let all = numbers.clone();
-    match numbers.position(|x| !x.is_finite()) {
+fn check_finite(what: &'static str, numbers: &[f32]) -> Result<(), Error> {
+    match numbers.iter().position(|x| !x.is_finite()) {
         None => Ok(()),
         Some(index) => Err(Error::NotFinite {
             what,
             index,
-            value: all.skip(index).next().copied().unwrap_or(f32::NAN).into(),
+            value: numbers[index].into(),
         }),
     }
 }

@@ -41,9 +41,12 @@ impl Default for Wave {
 /// Stokes drift, and short waves do not explode at the crests of long ones (e^ky is 10⁵ for ripples of half a meter on
 /// a crest of 1 m). Of waves of about the same length, none goes higher than ky = ½.
 ///
+/// One wave conserves the water and does not turn it, exactly; several do up to their steepness, as linear theory does.
+///
 /// # Cost
-/// One to three nanoseconds per wave and question (`cargo bench --bench surface`). The bits depend on the waves only,
-/// not on the machine; what is computed when they are made (tanh, cos) may differ in its last bit between systems.
+/// Per wave some 2.5 ns an elevation and 7.5 ns a velocity with AVX2 (`cargo bench --bench surface`). The bits depend on
+/// the waves only, not on the machine; what is computed when they are made (tanh, cos) may differ in its last bit between
+/// systems.
 ///
 /// ```
 /// use rapier3d_immersed::free_surface::{Dispersion, FreeSurface, Wave, Waves};
