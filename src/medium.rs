@@ -338,7 +338,7 @@ impl Medium {
         // Close to a wave the surface at the place decides, with some room for its slope and its motion.
         let at = self.to_level(&self.axes(), center);
         let here = self.elevation(&at, time);
-        if 8.0 * f64::from(radius) < self.surface.bend() {
+        if self.is_plane_over(2.0 * f64::from(radius)) {
             let [x, z] = here.slope;
             let room = reach + f64::from(radius) * (1.0 + (x * x + z * z).sqrt());
             if height - room > here.height {
@@ -349,6 +349,11 @@ impl Medium {
             first = 0;
         }
         (first, last)
+    }
+
+    /// Whether the free surface is a plane over a body of this length, m: one of a quarter of a wave at most.
+    pub(crate) fn is_plane_over(&self, length: f64) -> bool {
+        4.0 * length < self.surface.bend()
     }
 
     /// The free surface over or under a point in level axes; level where the surface is no number.
@@ -375,8 +380,7 @@ impl Medium {
         if layer == 1 && !self.surface.is_still() {
             let axes = self.axes();
             for (point, sample) in points.iter().zip(samples) {
-                let mut at = self.to_level(&axes, *point);
-                at.y = at.y.min(self.elevation(&at, time).height);
+                let at = self.to_level(&axes, *point);
                 let [x, y, z]: [f64; 3] = (axes * self.surface.velocity(&at, time)).into();
                 sample.velocity += Vector::new(x as Real, y as Real, z as Real);
             }

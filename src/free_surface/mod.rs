@@ -42,8 +42,8 @@ pub trait FreeSurface: Send + Sync {
     /// The surface over or under a place of the level.
     fn elevation(&self, x: f64, z: f64, time: f64) -> Elevation;
 
-    /// Velocity of the lower fluid that belongs to the surface's motion, at a point at most as high as the surface.
-    /// Zero unless implemented: then the surface pushes bodies up and down by their buoyancy alone.
+    /// Velocity of the lower fluid that belongs to the surface's motion, at a point of it. Bodies ask for it at the middle of
+    /// what is under water, which may be a little above the surface. Zero unless implemented: then the surface pushes bodies up and down by their buoyancy alone.
     fn velocity(&self, _point: &Vector3<f64>, _time: f64) -> Vector3<f64> {
         Vector3::zeros()
     }

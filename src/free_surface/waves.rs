@@ -75,7 +75,7 @@ const STEEPEST: f64 = 0.443;
 const SHORTEST: f64 = 1e-3;
 
 /// A surface [bends](FreeSurface::bend) like its shortest wave, but for those that hold this share of its variance.
-const NEGLIGIBLE: f64 = 0.01;
+const NEGLIGIBLE: f64 = 0.03;
 
 impl Waves {
     /// The sum of these waves.

@@ -79,8 +79,8 @@ pub(super) fn layers_of(
     let crossing = constants.crossing(state.constants);
     let radius = crossing.map_or(0.0, |crossing| crossing.whole.radius as Real);
     let way = (body.linvel().dot(medium.up()) * dt).abs();
-    let (first, last) = medium.layers_within(center, radius, way, environment.time);
     let was_cut = state.crossing.as_ref().is_some_and(|memory| memory.active);
+    let (first, last) = medium.layers_within(center, radius, way, environment.time);
     Layers {
         first,
         last,

@@ -5,7 +5,7 @@ use crate::dynamics::constants::{BodyConstants, InertiaConstants};
 use crate::dynamics::part_constants::{BodyFrame, PartConstants, coupled_mass};
 use crate::hydro::part_law::place::CoupledMass;
 use crate::hydro::viscous::ViscousLaw;
-use crate::hydro::{AddedMass, Hull};
+use crate::hydro::{AddedMass, Hull, HydroProperties};
 use crate::medium::Medium;
 use rapier3d::na::{Matrix3, Vector3};
 
@@ -31,12 +31,16 @@ pub(crate) struct CrossingConstants {
     pub radiates: bool,
 }
 
+/// Edges that hulls on waves are divided to are at least this share of the body's length.
+const LONGEST: f64 = 0.05;
+
 /// A hull and what it displaces.
 #[derive(Clone, Debug)]
 pub(crate) struct CutBody {
     pub hull: Hull,
-    /// Largest distance from the center of mass, m.
+    /// Largest distance from the center of mass, and length over which waves bend its waterline, m.
     pub radius: f64,
+    pub length: f64,
     /// Volume, m³, and its middle.
     pub volume: f64,
     pub middle: Vector3<f64>,
@@ -54,16 +58,23 @@ pub(crate) struct CrossingFluid {
 }
 
 impl CutBody {
-    fn new(hull: Hull, volume: f64) -> Self {
-        // Far under a plane all of it is.
-        let radius = hull.radius();
-        let all = hull.under_plane(&Matrix3::identity(), 3.0 * radius, [0.0; 2]);
-        let own = if all.volume > 0.0 { all.volume } else { volume };
+    fn new(hull: Hull, hydro: &HydroProperties, medium: &Medium) -> Self {
+        let length = 2.0 * hydro.proxy.semi_axes.max();
+        let (radius, middle) = (hull.radius(), hull.centroid());
+        let scale = hydro.volume / hull.volume();
+        // Waves are straight along the edges of the triangles of a hull that is cut corner by corner.
+        let edge = (0.25 * medium.surface().bend()).max(LONGEST * length);
+        let hull = if medium.is_plane_over(length) {
+            hull
+        } else {
+            hull.divided(edge)
+        };
         Self {
             radius,
-            volume,
-            middle: all.moment / own,
-            scale: volume / own,
+            length,
+            volume: hydro.volume,
+            middle,
+            scale,
             hull,
         }
     }
@@ -93,7 +104,7 @@ impl CrossingConstants {
                 .hydro
                 .hull
                 .posed(&rotation, &part.pose.translation.vector);
-            CutBody::new(about_center(&in_body), part.hydro.volume)
+            CutBody::new(about_center(&in_body), &part.hydro, medium)
         });
         let densest = medium
             .fluids()
@@ -121,7 +132,7 @@ impl CrossingConstants {
             length: first.length,
             dry_mass: dry.mass,
             dry_inertia: turn.matrix() * dry.inertia * first.axes.matrix(),
-            whole: CutBody::new(about_center(&hydro.hull), hydro.volume),
+            whole: CutBody::new(about_center(&hydro.hull), hydro, medium),
             parts: parts.collect(),
             semi_axes: hydro.proxy.semi_axes,
             added_mass,

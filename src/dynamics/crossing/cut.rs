@@ -81,7 +81,7 @@ impl Cut<'_> {
         let top = -medium.top(layer) - at.y;
         let found = if layer != 1 || surface.is_still() {
             body.hull.under_plane(&place.turn, top, [0.0; 2])
-        } else if 8.0 * body.radius < surface.bend() {
+        } else if medium.is_plane_over(body.length) {
             let here = medium.elevation(at, self.time);
             body.hull
                 .under_plane(&place.turn, here.height - at.y, here.slope)
