@@ -115,6 +115,10 @@ pub(super) fn integrate(
             input,
             flow: batch.flows.get(i),
             rows: batch.parts.get(first..first + own.rows).unwrap_or_default(),
+            accelerations: batch
+                .part_accelerations
+                .get(first..first + own.rows)
+                .unwrap_or_default(),
             batched,
             context: batched.context,
         };
@@ -144,6 +148,8 @@ struct OneStep<'a> {
     input: &'a StepInput,
     flow: Option<&'a SeenFlow>,
     rows: &'a [PartRow],
+    /// Acceleration of the fluid at each; none where all fluids rest.
+    accelerations: &'a [Vector],
     batched: Batched<'a>,
     context: &'a StepContext,
 }
@@ -258,18 +264,13 @@ impl OneStep<'_> {
         let parts = self.constants.part_count();
         let memory = &mut *own.memory;
         memory.accelerations.clear();
-        let dt = f64::from(self.context.dt);
         for number in 0..own.count {
-            let (mut change, mut known) = (Vector3::zeros(), 0.0);
-            for part in 0..parts {
-                if let Some((_, last)) = memory.before(own.first + number, part, parts) {
-                    change += self.fluid_at(number * parts + part, frame) - last;
-                    known += 1.0;
-                }
-            }
-            let per = if known > 0.0 { 1.0 / (known * dt) } else { 0.0 };
-            memory.accelerations.push(change * per);
+            let of_layer = self.accelerations.iter().skip(number * parts).take(parts);
+            let sum: Vector = of_layer.sum();
+            memory.accelerations.push(to_f64(sum) / parts as f64);
         }
+        // The fluid around the body is taken as it is in the middle of the step.
+        let half = 0.5 * self.context.dt;
         memory.velocities.clear();
         memory.now.clear();
         let factors = &self.input.factors;
@@ -277,8 +278,9 @@ impl OneStep<'_> {
             let row = self.rows.get(index).copied().unwrap_or_default();
             let [drag, rotational, translational, _] = row.factors;
             memory.velocities.push(self.fluid_at(index, frame));
+            let ahead = self.accelerations.get(index).map(|a| *a * half);
             memory.now.push(PartNow {
-                velocity: wide(row.velocity),
+                velocity: wide(row.velocity) + to_f64(ahead.unwrap_or_default()),
                 spin: wide(row.spin),
                 factors: ForceFactors {
                     drag: f64::from(drag * factors.drag),

@@ -40,6 +40,7 @@ pub(super) fn sample_fluid(
         part_turbulence,
         crossings,
         point_layers,
+        part_accelerations,
         ..
     } = batch;
     if flows.is_empty() {
@@ -70,14 +71,16 @@ pub(super) fn sample_fluid(
     part_samples.clear();
     part_samples.resize(part_points.len(), FlowSample::default());
     if !crossings.is_empty() {
+        part_accelerations.resize(part_points.len(), Vector::ZERO);
         for layer in 0..medium.layers().len() {
-            of_layer.sample(
-                medium,
-                layer,
-                time,
-                (part_points, point_layers),
-                part_samples,
-            );
+            if medium.moves(layer) {
+                of_layer.find(layer, part_points, point_layers);
+                of_layer.sample(medium, layer, [time, context.dt.into()]);
+                for (place, now, acceleration) in of_layer.found(context.dt) {
+                    part_samples[place] = now;
+                    part_accelerations[place] = acceleration;
+                }
+            }
         }
     } else if !part_points.is_empty() {
         medium.sample(layer, part_points, time, part_samples);
@@ -170,29 +173,42 @@ pub(super) fn sample_fluid(
 }
 
 impl LayerPoints {
-    /// Samples those of many points that are in a layer.
-    fn sample(
-        &mut self,
-        medium: &Medium,
-        layer: usize,
-        time: f64,
-        (points, layers): (&[Vector], &[u8]),
-        samples: &mut [FlowSample],
-    ) {
+    /// Finds those of many points that are in a layer.
+    fn find(&mut self, layer: usize, points: &[Vector], layers: &[u8]) {
         self.points.clear();
         self.places.clear();
-        let of_layer = layers.iter().zip(points).enumerate();
-        for (place, (_, point)) in of_layer.filter(|(_, (own, _))| usize::from(**own) == layer) {
+        let all = layers.iter().zip(points).enumerate();
+        for (place, (_, point)) in all.filter(|(_, (own, _))| usize::from(**own) == layer) {
             self.points.push(*point);
             self.places.push(place);
         }
-        self.samples.clear();
-        self.samples
-            .resize(self.points.len(), FlowSample::default());
-        medium.sample(layer, &self.points, time, &mut self.samples);
-        for (place, sample) in self.places.iter().zip(&self.samples) {
-            samples[*place] = *sample;
+    }
+
+    /// Samples the fluid at the points now, and where it will have gone after `dt`.
+    fn sample(&mut self, medium: &Medium, layer: usize, [time, dt]: [f64; 2]) {
+        for samples in &mut self.samples {
+            samples.clear();
+            samples.resize(self.points.len(), FlowSample::default());
         }
+        let [now, then] = &mut self.samples;
+        medium.sample(layer, &self.points, time, now);
+        for (point, sample) in self.points.iter_mut().zip(&*now) {
+            *point += sample.velocity * dt as Real;
+        }
+        medium.sample(layer, &self.points, time + dt, then);
+    }
+
+    /// The points' places among all points, what is there now, and how the fluid that is there accelerates in a step of
+    /// `dt`, m/s².
+    fn found(&self, dt: Real) -> impl Iterator<Item = (usize, FlowSample, Vector)> {
+        let [now, then] = &self.samples;
+        let both = self.places.iter().zip(now.iter().zip(then));
+        both.map(move |(place, (now, then))| {
+            let acceleration = (then.velocity - now.velocity) / dt;
+            let known = acceleration.is_finite();
+            let acceleration = if known { acceleration } else { Vector::ZERO };
+            (*place, *now, acceleration)
+        })
     }
 }
 

@@ -31,6 +31,8 @@ pub(in crate::coupling) struct Batch {
     /// What bodies that are cut have besides, and the layer that each of the parts' points is in; empty on other routes.
     pub crossings: Vec<CrossingBody>,
     pub point_layers: Vec<u8>,
+    /// Accelerations of the fluid at those points, m/s².
+    pub part_accelerations: Vec<Vector>,
     /// What the integration makes of the inputs.
     pub outputs: Vec<StepOutput>,
 }
@@ -59,6 +61,7 @@ impl Batch {
         self.part_turbulence.clear();
         self.crossings.clear();
         self.point_layers.clear();
+        self.part_accelerations.clear();
     }
 }
 
@@ -94,7 +97,8 @@ impl<'a> Batched<'a> {
 pub(in crate::coupling) struct LayerPoints {
     pub points: Vec<Vector>,
     pub places: Vec<usize>,
-    pub samples: Vec<FlowSample>,
+    /// What the fluid does there, now and at the end of the step.
+    pub samples: [Vec<FlowSample>; 2],
 }
 
 /// What a step works in.

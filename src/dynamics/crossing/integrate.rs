@@ -83,8 +83,10 @@ impl CrossingStep<'_> {
         while done < count {
             let guess = self.dt / count;
             let place = self.place(motion, done * guess);
+            // The surface moves with the fluid that the motion is counted relative to: where the body is now, and in
+            // between, it is where it is now.
             let cut = Cut {
-                time: self.cut.time + (done + 0.5) * guess,
+                time: self.cut.time + done * guess,
                 ..self.cut
             };
             let wetted = cut.cut(self.constants, &place, portions);
