@@ -1,5 +1,6 @@
 //! Which colliders of a body are one surface to the fluid, and which are parts of their own.
 
+use super::bent::unfolded;
 use crate::error::Error;
 use crate::geometry::Surface;
 use crate::hydro::{AddedMass, HydroProperties};
@@ -18,7 +19,8 @@ use rapier3d::parry::transformation::try_convex_hull;
 )]
 pub enum Division {
     /// Colliders that touch are one part if they are plates in one plane, if they fill their common hull, or if none of them is a
-    /// plate (as the pieces of a convex decomposition); every other is a part by itself.
+    /// plate (as the pieces of a convex decomposition); every other is a part by itself. Plates that meet edge to edge at an angle of
+    /// up to 60° stay parts, but are strips of one bent plate, with its aspect ratio: the halves of a wing with dihedral.
     #[default]
     Automatic,
     /// All are one.
@@ -35,10 +37,10 @@ const PARALLEL: f64 = 0.996;
 const FILLED: f64 = 0.9;
 
 /// A piece of a body, or several that have become one.
-struct Piece<'a> {
+pub(super) struct Piece<'a> {
     shapes: Vec<(Pose, &'a dyn Shape)>,
-    surface: Surface,
-    hydro: HydroProperties,
+    pub(super) surface: Surface,
+    pub(super) hydro: HydroProperties,
     volume: f64,
 }
 
@@ -54,8 +56,13 @@ impl<'a> Piece<'a> {
         })
     }
 
-    fn is_plate(&self) -> bool {
+    pub(super) fn is_plate(&self) -> bool {
         self.hydro.bluff.is_none()
+    }
+
+    /// Of a plate, on one of its sides.
+    pub(super) fn normal(&self) -> Vector3<f64> {
+        self.hydro.planform.axes * Vector3::z()
     }
 
     fn size(&self) -> f64 {
@@ -81,7 +88,7 @@ impl<'a> Piece<'a> {
             return false;
         }
         let (a, b) = (&self.hydro.planform, &other.hydro.planform);
-        let (n, m) = (a.axes * Vector3::z(), b.axes * Vector3::z());
+        let (n, m) = (self.normal(), other.normal());
         let apart = (b.center - a.center).dot(&n).abs();
         let thick = a.half_extents.z + b.half_extents.z;
         n.dot(&m).abs() > PARALLEL && apart <= thick
@@ -145,7 +152,19 @@ pub(super) fn parts_of(
     if pieces.len() < 2 {
         return Ok(Vec::new());
     }
+    if division == Division::Automatic {
+        return Ok(unfolded(&pieces, &touching(&pieces), center));
+    }
     Ok(pieces.into_iter().map(|piece| piece.hydro).collect())
+}
+
+/// Which of the pieces touch.
+fn touching(pieces: &[Piece]) -> Vec<(usize, usize)> {
+    let count = pieces.len();
+    (0..count)
+        .flat_map(|i| (i + 1..count).map(move |j| (i, j)))
+        .filter(|(i, j)| pieces[*i].touches(&pieces[*j]))
+        .collect()
 }
 
 /// Pieces of which those that are one have become one.
@@ -153,11 +172,7 @@ fn joined(pieces: Vec<Piece>, center: Vector3<f64>) -> Result<Vec<Piece>, Error>
     // Who touches whom, and which of them are one; the first of a group stands for it.
     let count = pieces.len();
     let mut group: Vec<usize> = (0..count).collect();
-    let touching = |i: usize, j: usize| pieces[i].touches(&pieces[j]);
-    let pairs: Vec<(usize, usize)> = (0..count)
-        .flat_map(|i| (i + 1..count).map(move |j| (i, j)))
-        .filter(|(i, j)| touching(*i, *j))
-        .collect();
+    let pairs = touching(&pieces);
     let join = |group: &mut Vec<usize>, i: usize, j: usize| {
         let (low, high) = (group[i].min(group[j]), group[i].max(group[j]));
         for of in group.iter_mut().filter(|of| **of == high) {

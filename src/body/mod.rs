@@ -1,5 +1,6 @@
 //! The description of an immersed body: its shape as the fluid feels it, its law, and its own mass.
 
+mod bent;
 mod division;
 pub(crate) mod from_rapier;
 mod part;
