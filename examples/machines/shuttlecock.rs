@@ -137,9 +137,7 @@ pub fn show() -> Result<Shown, Failure> {
     let measured = Item::Line(vec![(0.0, 6.7), (4.0, 6.7)], GREY, 1);
     speeds.items.extend([measured, Item::Line(curve, BLUE, 2)]);
     let terminal = falling.velocity().length();
-    Ok(Shown {
-        title: "A shuttlecock thrown tail first at 25 m/s, and let fall".into(),
-        panels: vec![side, angle, speeds],
-        lines: vec![format!("falls at {terminal:.2} m/s (measured: 6.7)")],
-    })
+    let title = "A shuttlecock thrown tail first at 25 m/s, and let fall";
+    let lines = vec![format!("falls at {terminal:.2} m/s (measured: 6.7)")];
+    Ok(Shown::new(title, vec![side, angle, speeds], lines))
 }

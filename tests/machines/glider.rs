@@ -52,15 +52,15 @@ fn glide(build: Build) -> (Glider, f64) {
     (glider, ratio)
 }
 
-/// The same eight plates as parts, as one compound collider, divided by itself (which joins the halves of the wing) and as bodies on
-/// fixed joints glide alike, to 1 % (5 % were asked for; joints give a little). What the one body does is what its own polar says where its moment vanishes, to 1 %: in
+/// The same eight plates as colliders of one body and as one compound collider (the halves of its wing are one bent plate), and as bodies
+/// on fixed joints glide alike, to 1 % (5 % were asked for; joints give a little). What the one body does is what its own polar says where its moment vanishes, to 1 %: in
 /// a steady glide the path's slope is drag over lift.
 #[test]
 fn one_glide_however_it_is_put_together() {
-    let (parts, ratio) = glide(Build::Parts);
-    let own = trimmed(&parts).unwrap();
+    let (glider, ratio) = glide(Build::Colliders);
+    let own = trimmed(&glider).unwrap();
     assert!((ratio / own - 1.0).abs() < 0.01, "{ratio} {own}");
-    for build in [Build::Compound, Build::Automatic, Build::Jointed] {
+    for build in [Build::Compound, Build::Jointed] {
         let other = glide(build).1;
         assert!(
             (other / ratio - 1.0).abs() < 0.01,
