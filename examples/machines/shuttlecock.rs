@@ -35,7 +35,7 @@ pub fn rings() -> impl Iterator<Item = [f64; 3]> {
 }
 
 /// Force on a ring over the density, m⁴/s², at a velocity in the body's axes, of bodies of revolution at incidence (Allen & Perkins,
-/// NACA Rep. 1048 (1951)): drag along the axle, the normal force of slender bodies where they grow, and drag across.
+/// NACA Rep. 1048 (1951); recalled): drag along the axle, the normal force of slender bodies where they grow, and drag across.
 pub fn force([_, grows, side]: [f64; 3], velocity: &Vector3<f64>) -> Vector3<f64> {
     let along = Vector3::new(velocity.x, 0.0, 0.0);
     let across = velocity - along;

@@ -1,10 +1,10 @@
 //! Plates that meet at an edge at an angle: one bent plate, as the halves of a wing with dihedral.
 //!
 //! Each of them is a strip of the plate that they are when they are unfolded, and has its aspect ratio: the halves shed one
-//! wake. A wing of a dihedral Γ then has cos²Γ of the lift slope of the flat one, as measured on V-tails up to
-//! Γ ≈ 50° (P. E. Purser & J. P. Campbell, NACA Rep. 823 (1945)); each half by itself would have that of half the aspect ratio.
+//! wake. A wing of a dihedral Γ then has cos²Γ of the lift slope of the flat one, as tests of V-tails
+//! bear out (P. E. Purser & J. P. Campbell, NACA Rep. 823 (1945); the relation is recalled); each half by itself would have that of half the aspect ratio.
 
-use super::division::Piece;
+use super::piece::Piece;
 use crate::hydro::HydroProperties;
 use rapier3d::na::{Isometry3, Point3, Rotation3, UnitQuaternion, UnitVector3, Vector3};
 

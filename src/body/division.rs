@@ -1,13 +1,12 @@
 //! Which colliders of a body are one surface to the fluid, and which are parts of their own.
 
 use super::bent::unfolded;
+use super::piece::Piece;
 use crate::error::Error;
-use crate::geometry::Surface;
 use crate::hydro::{AddedMass, HydroProperties};
 use crate::math::to_real;
 use rapier3d::math::Pose;
 use rapier3d::na::Vector3;
-use rapier3d::parry::query::distance;
 use rapier3d::parry::shape::Shape;
 use rapier3d::parry::transformation::try_convex_hull;
 
@@ -29,71 +28,8 @@ pub enum Division {
     EachCollider,
 }
 
-/// Gap, over the size of the smaller of two colliders, up to which they touch.
-const GAP: f64 = 0.02;
-/// Cosine of the angle up to which plates are parallel: 5°.
-const PARALLEL: f64 = 0.996;
 /// Share of their common hull that colliders fill which make one solid together.
 const FILLED: f64 = 0.9;
-
-/// A piece of a body, or several that have become one.
-pub(super) struct Piece<'a> {
-    shapes: Vec<(Pose, &'a dyn Shape)>,
-    pub(super) surface: Surface,
-    pub(super) hydro: HydroProperties,
-    volume: f64,
-}
-
-impl<'a> Piece<'a> {
-    fn new(shapes: Vec<(Pose, &'a dyn Shape)>, center: Vector3<f64>) -> Result<Self, Error> {
-        let surface = Surface::of_parts(&shapes, Surface::from_shape)?;
-        let hydro = HydroProperties::from_surface(&surface, center);
-        Ok(Self {
-            volume: hydro.volume,
-            shapes,
-            surface,
-            hydro,
-        })
-    }
-
-    pub(super) fn is_plate(&self) -> bool {
-        self.hydro.bluff.is_none()
-    }
-
-    /// Of a plate, on one of its sides.
-    pub(super) fn normal(&self) -> Vector3<f64> {
-        self.hydro.planform.axes * Vector3::z()
-    }
-
-    fn size(&self) -> f64 {
-        self.hydro.planform.half_extents.x
-    }
-
-    fn touches(&self, other: &Self) -> bool {
-        let gap = GAP * self.size().min(other.size());
-        self.shapes.iter().any(|(pose, shape)| {
-            let others = other.shapes.iter();
-            // Shapes of which parry knows no distance may touch.
-            let near = |(other_pose, other): &(Pose, &dyn Shape)| {
-                distance(pose, *shape, other_pose, *other)
-                    .is_ok_and(|d| f64::from(d.distance) <= gap)
-            };
-            others.into_iter().any(near)
-        })
-    }
-
-    /// Whether both are plates in one plane.
-    fn is_in_plane_with(&self, other: &Self) -> bool {
-        if !(self.is_plate() && other.is_plate()) {
-            return false;
-        }
-        let (a, b) = (&self.hydro.planform, &other.hydro.planform);
-        let (n, m) = (self.normal(), other.normal());
-        let apart = (b.center - a.center).dot(&n).abs();
-        let thick = a.half_extents.z + b.half_extents.z;
-        n.dot(&m).abs() > PARALLEL && apart <= thick
-    }
-}
 
 /// Whether pieces fill their common convex hull.
 fn are_convex<'a>(pieces: impl Iterator<Item = &'a Piece<'a>>) -> bool {

@@ -4,6 +4,7 @@ mod bent;
 mod division;
 pub(crate) mod from_rapier;
 mod part;
+mod piece;
 mod thruster;
 
 pub use division::Division;

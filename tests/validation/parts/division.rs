@@ -121,7 +121,7 @@ fn aspect(part: &HydroProperties) -> f64 {
 }
 
 /// The halves of a wing with dihedral are two parts, but one wing: together they lift as the flat wing times cos²Γ (Purser &
-/// Campbell, NACA Rep. 823 (1945)), since each meets α cos Γ and its force leans by Γ. Unjoined, they would have 0.82 of that
+/// Campbell, NACA Rep. 823 (1945)), since each meets α cos Γ and its force leans by Γ. Unjoined, they would have 0.74 of that
 /// (Helmbold's slope for half the aspect ratio).
 #[test]
 fn a_wing_with_dihedral_lifts_as_one() {
