@@ -2,7 +2,8 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREEN, GREY, RED, Shown, View, around, drawn, single};
+use crate::film::{BLUE, GREEN, GREY, RED, Shown, View, drawn};
+use crate::stage::{around, single};
 use rapier3d_immersed::flow::Uniform;
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::*;
@@ -133,9 +134,6 @@ pub fn show() -> Result<Shown, Failure> {
     above
         .items
         .push(Item::Label((-0.25, 0.14), "wind".into(), RED));
-    Ok(Shown {
-        title: "A cup anemometer in winds of 3, 6 and 12 m/s".into(),
-        panels: vec![above, curves],
-        lines,
-    })
+    let title = "A cup anemometer in winds of 3, 6 and 12 m/s";
+    Ok(Shown::new(title, vec![above, curves], lines))
 }

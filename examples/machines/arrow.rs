@@ -111,9 +111,7 @@ pub fn show() -> Result<Shown, Failure> {
         .push(Item::Line(vec![(0.0, 0.0), (1.2, 0.0)], GREY, 1));
     angle.items.push(Item::Line(degrees(&curve), RED, 2));
     let after = curve[HZ as usize].1.to_degrees();
-    Ok(Shown {
-        title: "An arrow of 0.7 m and 25 g at 20 m/s, let go at 10° of yaw".into(),
-        panels: vec![above, angle],
-        lines: vec![format!("after 1 s {after:.2}° off its path (less than 2°)")],
-    })
+    let title = "An arrow of 0.7 m and 25 g at 20 m/s, let go at 10° of yaw";
+    let lines = vec![format!("after 1 s {after:.2}° off its path (less than 2°)")];
+    Ok(Shown::new(title, vec![above, angle], lines))
 }

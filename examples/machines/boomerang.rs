@@ -2,7 +2,8 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, RED, Shown, View, around, drawn, single};
+use crate::film::{BLUE, GREY, RED, Shown, View, drawn};
+use crate::stage::{around, single};
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part, PolarTable};
@@ -139,11 +140,9 @@ pub fn show() -> Result<Shown, Failure> {
     let away: Vec<f32> = path.iter().map(|p| (*p - HAND).length()).collect();
     let far = away.iter().fold(0f32, |a, b| a.max(*b));
     let near = away[path.len() / 2..].iter().fold(far, |a, b| a.min(*b));
-    Ok(Shown {
-        title: "A boomerang of four blades, thrown at 18 m/s from the red dot".into(),
-        panels,
-        lines: vec![format!(
-            "{far:.1} m away, and back to {near:.2} m of the hand"
-        )],
-    })
+    let title = "A boomerang of four blades, thrown at 18 m/s from the red dot";
+    let lines = vec![format!(
+        "{far:.1} m away, and back to {near:.2} m of the hand"
+    )];
+    Ok(Shown::new(title, panels, lines))
 }

@@ -2,10 +2,11 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, RED, Shown, View, advance, drawn, world};
-use crate::fold::{isometry, raised, sheet, strips};
+use crate::film::{BLUE, RED, Shown, View, drawn};
+use crate::fold::{raised, sheet, strips};
+use crate::stage::{advance, double, immerse, world};
 use rapier3d_immersed::rapier3d::prelude::*;
-use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part};
+use rapier3d_immersed::{Fluid, HydroProperties, Immersion, Part};
 
 /// Length and span of the wings, depth of the keel, m.
 const LENGTH: f32 = 0.2;
@@ -47,11 +48,8 @@ impl Dart {
             .linvel(Vector::X * SPEED)
             .additional_mass_properties(folds);
         let body = world.insert_body(body);
-        let mut parts = Vec::new();
         let flat = sheet(&[[nose, 0.0], [-nose, tip], [-nose, -tip]], LAYER)?;
-        for (hydro, fold) in strips(&flat, 8, DIHEDRAL)? {
-            parts.push(Part::new(hydro).at(isometry(&fold)));
-        }
+        let mut parts = strips(&flat, 8, DIHEDRAL)?;
         let edge = SharedShape::cuboid(EDGE[0], 0.5 * LAYER, EDGE[1]);
         for right in [true, false] {
             let side = if right { 1.0 } else { -1.0 };
@@ -62,7 +60,7 @@ impl Dart {
             for (shape, at) in [(half, fold), (edge.clone(), bent)] {
                 let part = HydroProperties::from_shape(shape.as_ref())?;
                 if at == bent {
-                    parts.push(Part::new(part).at(isometry(&at)));
+                    parts.push(Part::new(part).at(double(&at)));
                 }
                 let collider = ColliderBuilder::new(shape).density(PAPER).position(at);
                 world.insert_collider(collider, Some(body));
@@ -74,11 +72,10 @@ impl Dart {
         )?;
         let down = Pose::rotation(Vector::X * std::f32::consts::FRAC_PI_2);
         let part = HydroProperties::from_shape(keel.as_ref())?;
-        parts.push(Part::new(part).at(isometry(&down)));
+        parts.push(Part::new(part).at(double(&down)));
         let keel = ColliderBuilder::new(keel).density(PAPER).position(down);
         world.insert_collider(keel, Some(body));
-        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, body)?;
-        immersion.insert(body, ImmersedBody::new(hydro).with_parts(parts));
+        immerse(&world, &mut immersion, body, Some(parts))?;
         Ok(Self {
             world,
             immersion,
@@ -134,9 +131,6 @@ pub fn show() -> Result<Shown, Failure> {
             points.len() as f32 / 60.0
         ));
     }
-    Ok(Shown {
-        title: "A paper dart, thrown level at 3 m/s: wings level (blue), rolled by 2° (red)".into(),
-        panels: vec![side, above],
-        lines,
-    })
+    let title = "A paper dart, thrown level at 3 m/s: wings level (blue), rolled by 2° (red)";
+    Ok(Shown::new(title, vec![side, above], lines))
 }

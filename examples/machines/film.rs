@@ -4,11 +4,7 @@ use crate::Failure;
 use crate::draw::{self, Item, Panel, Point};
 use plotters::style::RGBColor;
 use rapier3d_immersed::geometry::Surface;
-use rapier3d_immersed::rapier3d::na::{
-    Isometry3, Translation3, UnitQuaternion, UnitVector3, Vector3,
-};
 use rapier3d_immersed::rapier3d::prelude::*;
-use rapier3d_immersed::{Fluid, Immersion};
 use std::path::Path;
 
 pub const BLUE: RGBColor = RGBColor(30, 90, 200);
@@ -18,9 +14,19 @@ pub const GREEN: RGBColor = RGBColor(46, 140, 60);
 
 /// A machine's picture, and what is printed.
 pub struct Shown {
-    pub title: String,
+    title: &'static str,
     pub panels: Vec<Panel>,
     pub lines: Vec<String>,
+}
+
+impl Shown {
+    pub fn new(title: &'static str, panels: Vec<Panel>, lines: Vec<String>) -> Self {
+        Self {
+            title,
+            panels,
+            lines,
+        }
+    }
 }
 
 /// Two directions of the world that a picture shows to the right and upward.
@@ -68,25 +74,6 @@ pub fn outlines(world: &PhysicsWorld, body: RigidBodyHandle, view: View) -> Vec<
         .collect()
 }
 
-/// A world of so many steps per second, in a fluid.
-pub fn world(fluid: Fluid, hz: f32) -> (PhysicsWorld, Immersion) {
-    let mut world = PhysicsWorld::new();
-    world.integration_parameters.dt = 1.0 / hz;
-    (world, Immersion::new(fluid))
-}
-
-/// Steps for so many seconds.
-pub fn advance(world: &mut PhysicsWorld, immersion: &mut Immersion, seconds: f32) {
-    let steps = (seconds / world.integration_parameters.dt).round() as usize;
-    (0..steps).for_each(|_| immersion.step(world));
-}
-
-/// A collider that touches nothing, as of a part of a machine.
-pub fn untouched(shape: SharedShape, place: Pose) -> ColliderBuilder {
-    let collider = ColliderBuilder::new(shape).position(place);
-    collider.collision_groups(InteractionGroups::none())
-}
-
 /// The outlines as items of a panel.
 pub fn drawn(
     world: &PhysicsWorld,
@@ -96,6 +83,24 @@ pub fn drawn(
 ) -> Vec<Item> {
     let outlines = bodies.iter().flat_map(|body| outlines(world, *body, view));
     outlines.map(|line| Item::Line(line, color, 1)).collect()
+}
+
+/// A panel of what bodies look like from a side.
+pub fn seen(
+    title: &str,
+    labels: [&str; 2],
+    world: &PhysicsWorld,
+    bodies: &[RigidBodyHandle],
+    view: View,
+) -> Panel {
+    let mut panel = Panel::new(title, labels[0], labels[1]).equal();
+    panel.items = drawn(world, bodies, view, BLUE);
+    panel
+}
+
+/// The greatest magnitude on a curve.
+pub fn greatest(curve: &[Point]) -> f64 {
+    curve.iter().map(|(_, y)| y.abs()).fold(0.0, f64::max)
 }
 
 /// The outlines of one body so many times as large about its position, at another place of the panel or its own.
@@ -109,40 +114,9 @@ pub fn enlarged(
     let own = view.of(world.bodies[body].translation());
     let to = place.unwrap_or(own);
     let large = |p: Point| (to.0 + scale * (p.0 - own.0), to.1 + scale * (p.1 - own.1));
+    let item = |line: Vec<Point>| Item::Line(line.into_iter().map(large).collect(), color, 1);
     let outlines = outlines(world, body, view).into_iter();
-    let large = outlines.map(|line| line.into_iter().map(large).collect());
-    large.map(|line| Item::Line(line, color, 1)).collect()
-}
-
-/// A place, turned by so many whole turns about an axis through the origin.
-pub fn around(axis: &UnitVector3<f64>, turns: f64, place: Vector3<f64>) -> Isometry3<f64> {
-    let turned = UnitQuaternion::from_axis_angle(axis, std::f64::consts::TAU * turns);
-    Isometry3::from_parts(Translation3::from(turned * place), turned)
-}
-
-/// In rapier's single precision.
-pub fn single(place: &Isometry3<f64>) -> Pose {
-    let (t, q) = (&place.translation.vector, place.rotation.coords);
-    let rotation = Rotation::from_xyzw(q.x as f32, q.y as f32, q.z as f32, q.w as f32);
-    Pose::from_parts(Vector::new(t.x as f32, t.y as f32, t.z as f32), rotation)
-}
-
-/// The outlines of bodies, so many times as large, about a point of the picture.
-pub fn drawn_larger(
-    world: &PhysicsWorld,
-    bodies: &[RigidBodyHandle],
-    view: View,
-    color: RGBColor,
-    (about, by): (Point, f64),
-) -> Vec<Item> {
-    let away = |x: f64, from: f64| from + by * (x - from);
-    let outlines = bodies.iter().flat_map(|body| outlines(world, *body, view));
-    let enlarged = outlines.map(|line| {
-        let points = line.into_iter();
-        let points = points.map(|(x, y)| (away(x, about.0), away(y, about.1)));
-        Item::Line(points.collect(), color, 1)
-    });
-    enlarged.collect()
+    outlines.map(item).collect()
 }
 
 /// The convex hull of points, closed: Andrew's monotone chain.
@@ -150,15 +124,14 @@ fn hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let turn = |a: Point, b: Point, c: Point| (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0);
     let half = |points: &mut dyn Iterator<Item = Point>| {
-        let mut chain: Vec<Point> = Vec::new();
+        let mut line: Vec<Point> = Vec::new();
         for p in points {
-            while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0
-            {
-                chain.pop();
+            while line.len() > 1 && turn(line[line.len() - 2], line[line.len() - 1], p) <= 0.0 {
+                line.pop();
             }
-            chain.push(p);
+            line.push(p);
         }
-        chain
+        line
     };
     let mut around = half(&mut points.iter().copied());
     around.pop();
@@ -170,8 +143,7 @@ pub fn write(path: &Path, shown: &Shown) -> Result<(), Failure> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    let columns = shown.panels.len().min(3) as u32;
-    let picture = draw::svg(&shown.title, &shown.panels, columns as usize, (420, 380))?;
-    std::fs::write(path, picture)?;
-    Ok(())
+    let columns = shown.panels.len().min(3);
+    let picture = draw::svg(shown.title, &shown.panels, columns, (420, 380))?;
+    Ok(std::fs::write(path, picture)?)
 }

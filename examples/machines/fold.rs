@@ -1,23 +1,14 @@
 //! Thin things: sheets, wings that are folded along their middle, domes of cloth.
 
 use crate::Failure;
-use rapier3d_immersed::HydroProperties;
-use rapier3d_immersed::rapier3d::na::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use crate::stage::double;
 use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::{HydroProperties, Part};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 /// Facets of a dome around it, and from its rim to its top.
 const GORES: u32 = 16;
 const RINGS: u32 = 8;
-
-/// A place of rapier's in double precision, as parts have it.
-pub fn isometry(pose: &Pose) -> Isometry3<f64> {
-    let (t, q) = (pose.translation, pose.rotation);
-    let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
-    let turn = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
-    let place = [t.x, t.y, t.z].map(f64::from);
-    Isometry3::from_parts(Translation3::from(place), turn)
-}
 
 /// Turns the side of a wing that is toward +z or −z up by an angle, rad, about the x axis.
 pub fn raised(right: bool, dihedral: f32) -> Pose {
@@ -25,20 +16,15 @@ pub fn raised(right: bool, dihedral: f32) -> Pose {
     Pose::from_rotation(Rotation::from_rotation_x(angle))
 }
 
-/// Strips of a flat wing, its span along z, and the pose that folds each up. They have the aspect ratio of the whole
-/// wing, which each half by itself would not have.
+/// Strips of a flat wing, its span along z, each folded up. They have the aspect ratio of the whole wing.
 ///
 /// # Errors
 /// Those of [`HydroProperties::strips_of_shape`].
-pub fn strips(
-    flat: &SharedShape,
-    count: usize,
-    dihedral: f32,
-) -> Result<Vec<(HydroProperties, Pose)>, Failure> {
+pub fn strips(flat: &SharedShape, count: usize, dihedral: f32) -> Result<Vec<Part>, Failure> {
     let strips = HydroProperties::strips_of_shape(flat.as_ref(), count)?;
     let fold = |strip: HydroProperties| {
         let right = strip.planform.center.z > 0.0;
-        (strip, raised(right, dihedral))
+        Part::new(strip).at(double(&raised(right, dihedral)))
     };
     Ok(strips.into_iter().map(fold).collect())
 }

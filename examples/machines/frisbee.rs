@@ -128,9 +128,6 @@ pub fn show() -> Result<Shown, Failure> {
         side.items.push(Item::Line(path, color, 1));
         tilt.items.push(Item::Line(angles, color, 2));
     }
-    Ok(Shown {
-        title: "A frisbee thrown at 12 m/s from 1.5 m: spinning (blue) and not (red)".into(),
-        panels: vec![side, above, tilt],
-        lines,
-    })
+    let title = "A frisbee thrown at 12 m/s from 1.5 m: spinning (blue) and not (red)";
+    Ok(Shown::new(title, vec![side, above, tilt], lines))
 }

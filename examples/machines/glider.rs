@@ -1,11 +1,12 @@
-//! A glider of eight plates, put together in four ways: its glide is the same.
+//! A glider of eight plates, put together in three ways: its glide is the same.
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, RED, Shown, View, advance, drawn, drawn_larger, untouched, world};
-use crate::fold::{isometry, strips};
+use crate::film::{BLUE, RED, Shown, View, enlarged, seen};
+use crate::fold::strips;
+use crate::stage::{advance, double, immerse, single, untouched, world};
 use rapier3d_immersed::rapier3d::prelude::*;
-use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part};
+use rapier3d_immersed::{Fluid, HydroProperties, Immersion, Part};
 
 /// Of the wing, m; rad.
 const SPAN: f32 = 0.6;
@@ -27,14 +28,12 @@ const LAUNCH: f32 = 5.0;
 /// How the plates are put together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Build {
-    /// One body of eight colliders, and a part for each.
-    Parts,
-    /// One body whose collider is the compound of all.
+    /// One body of eight colliders, which is divided into parts by itself.
+    Colliders,
+    /// One body whose collider is the compound of all, divided likewise.
     Compound,
-    /// Eight bodies on fixed joints.
+    /// Eight bodies on fixed joints, those of a wing each with the aspect ratio of the whole wing.
     Jointed,
-    /// One body of eight colliders, divided into parts by itself: each half of the wing is a wing of its own.
-    Automatic,
 }
 
 pub struct Glider {
@@ -44,43 +43,26 @@ pub struct Glider {
     pub bodies: Vec<RigidBodyHandle>,
 }
 
-/// A plate: its shape and what the fluid feels of it, in a frame of its own whose place in the glider is `frame`.
-struct Plate {
-    shape: SharedShape,
-    middle: Pose,
-    hydro: HydroProperties,
-    frame: Pose,
-}
-
-fn plates() -> Result<Vec<Plate>, Failure> {
-    let single = |shape: SharedShape, x: f32, y: f32| -> Result<Plate, Failure> {
-        let hydro = HydroProperties::from_shape(shape.as_ref())?;
-        let (middle, frame) = (Pose::IDENTITY, Pose::translation(x, y, 0.0));
-        Ok(Plate {
-            shape,
-            middle,
-            hydro,
-            frame,
-        })
-    };
-    let mut plates = vec![
-        single(SharedShape::cuboid(0.265, 0.004, 0.004), -0.065, -0.005)?,
-        single(SharedShape::cuboid(0.03, 0.04, 0.000_75), TAIL_AT, 0.04)?,
-    ];
+/// The plates, the fuselage first: the shape of each, its middle in the frame of its part, and the part.
+fn plates() -> Result<Vec<(SharedShape, Pose, Part)>, Failure> {
+    let mut plates = Vec::new();
+    let rod = (SharedShape::cuboid(0.265, 0.004, 0.004), -0.065, -0.005);
+    let fin = (SharedShape::cuboid(0.03, 0.04, 7.5e-4), TAIL_AT, 0.04);
+    for (shape, x, y) in [rod, fin] {
+        let part = Part::new(HydroProperties::from_shape(shape.as_ref())?);
+        let part = part.at(double(&Pose::translation(x, y, 0.0)));
+        plates.push((shape, Pose::IDENTITY, part));
+    }
     let tail = Pose::new(Vector::X * TAIL_AT, Vector::Z * -TAIL_DOWN);
     for (span, chord, count, dihedral, place) in [
         (SPAN, CHORD, 4, DIHEDRAL, Pose::IDENTITY),
         (TAIL_SPAN, TAIL_CHORD, 2, 0.0, tail),
     ] {
-        let flat = SharedShape::cuboid(0.5 * chord, 0.5 * THICKNESS, 0.5 * span);
-        for (hydro, fold) in strips(&flat, count, dihedral)? {
-            let half = 0.5 * span / count as f32;
-            plates.push(Plate {
-                shape: SharedShape::cuboid(0.5 * chord, 0.5 * THICKNESS, half),
-                middle: Pose::translation(0.0, 0.0, hydro.planform.center.z as f32),
-                hydro,
-                frame: place * fold,
-            });
+        let strip = |span| SharedShape::cuboid(0.5 * chord, 0.5 * THICKNESS, 0.5 * span);
+        for part in strips(&strip(span), count, dihedral)? {
+            let middle = Pose::translation(0.0, 0.0, part.hydro.planform.center.z as f32);
+            let at = double(&place) * part.pose;
+            plates.push((strip(span / count as f32), middle, part.at(at)));
         }
     }
     Ok(plates)
@@ -91,49 +73,31 @@ impl Glider {
     /// Those of the description, which these sizes do not give.
     pub fn new(build: Build, hz: f32) -> Result<Self, Failure> {
         let (mut world, mut immersion) = world(Fluid::AIR, hz);
-        let plates = plates()?;
         let start = RigidBodyBuilder::dynamic().linvel(Vector::X * LAUNCH);
         let lead = MassProperties::new(Vector::X * NOSE, NOSE_WEIGHT, Vector::splat(1e-7));
-        let fuselage = start.clone().additional_mass_properties(lead);
-        let collider = |shape: SharedShape, pose: Pose| untouched(shape, pose).density(BALSA);
-        let first = world.insert_body(fuselage);
+        let first = world.insert_body(start.clone().additional_mass_properties(lead));
         let mut bodies = vec![first];
-        if build == Build::Jointed {
-            // The fuselage's own frame is the glider's; every other plate has its own.
-            let rod = collider(plates[0].shape.clone(), plates[0].frame);
-            world.insert_collider(rod, Some(first));
-            let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, first)?;
-            immersion.insert(first, hydro);
-            for plate in &plates[1..] {
-                let body = start.clone().pose(plate.frame);
-                let (body, _) = world.insert(body, collider(plate.shape.clone(), plate.middle));
-                let joint = FixedJointBuilder::new().local_frame1(plate.frame * plate.middle);
-                world.insert_impulse_joint(first, body, joint.local_frame2(plate.middle));
-                immersion.insert(body, plate.hydro.clone());
-                bodies.push(body);
+        let mut shapes = Vec::new();
+        for (i, (shape, middle, part)) in plates()?.into_iter().enumerate() {
+            let frame = single(&part.pose);
+            if build != Build::Jointed || i == 0 {
+                shapes.push((frame * middle, shape));
+                continue;
             }
-            return Ok(Self {
-                world,
-                immersion,
-                bodies,
-            });
+            let collider = untouched(shape, middle).density(BALSA);
+            let (body, _) = world.insert(start.clone().pose(frame), collider);
+            let joint = FixedJointBuilder::new().local_frame1(frame * middle);
+            world.insert_impulse_joint(first, body, joint.local_frame2(middle));
+            immersion.insert(body, part.hydro);
+            bodies.push(body);
         }
-        let shapes = plates.iter().map(|p| (p.frame * p.middle, p.shape.clone()));
         if build == Build::Compound {
-            let whole = SharedShape::compound(shapes.collect());
-            world.insert_collider(collider(whole, Pose::IDENTITY), Some(first));
-        } else {
-            for (at, shape) in shapes {
-                world.insert_collider(collider(shape, at), Some(first));
-            }
+            shapes = vec![(Pose::IDENTITY, SharedShape::compound(shapes))];
         }
-        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, first)?;
-        let mut body = ImmersedBody::new(hydro);
-        if build != Build::Automatic {
-            let part = |p: &Plate| Part::new(p.hydro.clone()).at(isometry(&p.frame));
-            body = body.with_parts(plates.iter().map(part));
+        for (at, shape) in shapes {
+            world.insert_collider(untouched(shape, at).density(BALSA), Some(first));
         }
-        immersion.insert(first, body);
+        immerse(&world, &mut immersion, first, None)?;
         Ok(Self {
             world,
             immersion,
@@ -158,37 +122,26 @@ impl Glider {
 pub fn show() -> Result<Shown, Failure> {
     let mut lines = Vec::new();
     let mut path = Panel::new("path (jointed: red), drawn larger", "x, m", "y, m").equal();
-    for (build, color) in [
-        (Build::Automatic, GREY),
-        (Build::Compound, BLUE),
-        (Build::Jointed, RED),
-        (Build::Parts, BLUE),
-    ] {
+    for build in [Build::Compound, Build::Jointed, Build::Colliders] {
+        let color = if build == Build::Jointed { RED } else { BLUE };
         let mut glider = Glider::new(build, 240.0)?;
         let mut points = Vec::new();
         for i in 0..60 {
-            let at = View::SIDE.of(glider.run(0.1));
-            points.push(at);
-            if build == Build::Parts && i % 12 == 6 {
-                let (world, bodies) = (&glider.world, &glider.bodies);
+            points.push(View::SIDE.of(glider.run(0.1)));
+            if build == Build::Colliders && i % 12 == 6 {
+                let (world, body) = (&glider.world, glider.bodies[0]);
                 path.items
-                    .extend(drawn_larger(world, bodies, View::SIDE, BLUE, (at, 5.0)));
+                    .extend(enlarged(world, body, View::SIDE, BLUE, (5.0, None)));
             }
         }
-        if build != Build::Automatic {
-            path.items.push(Item::Line(points, color, 1));
-        }
+        path.items.push(Item::Line(points, color, 1));
         glider.run(20.0);
         lines.push(format!("{build:?}: glide ratio {:.3}", glider.glide(20.0)));
     }
-    let glider = Glider::new(Build::Parts, 240.0)?;
-    let mut above = Panel::new("from above", "x, m", "−z, m").equal();
-    above.items = drawn(&glider.world, &glider.bodies, View::ABOVE, BLUE);
-    let mut front = Panel::new("from the front", "−z, m", "y, m").equal();
-    front.items = drawn(&glider.world, &glider.bodies, View::FRONT, BLUE);
-    Ok(Shown {
-        title: "A glider of eight plates: one body of parts, one compound collider, eight bodies on joints".into(),
-        panels: vec![above, front, path],
-        lines,
-    })
+    let glider = Glider::new(Build::Colliders, 240.0)?;
+    let seen = |title, labels, view| seen(title, labels, &glider.world, &glider.bodies, view);
+    let above = seen("from above", ["x, m", "−z, m"], View::ABOVE);
+    let front = seen("from the front", ["−z, m", "y, m"], View::FRONT);
+    let title = "A glider of eight plates: one body of colliders, one compound collider, eight bodies on joints";
+    Ok(Shown::new(title, vec![above, front, path], lines))
 }

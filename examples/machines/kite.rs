@@ -2,11 +2,12 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, RED, Shown, View, advance, drawn, untouched, world};
-use crate::fold::{isometry, raised, sheet, strips};
+use crate::film::{BLUE, GREY, RED, Shown, View, drawn};
+use crate::fold::{raised, sheet, strips};
+use crate::stage::{advance, double, immerse, untouched, world};
 use rapier3d_immersed::flow::Uniform;
 use rapier3d_immersed::rapier3d::prelude::*;
-use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part};
+use rapier3d_immersed::{Fluid, HydroProperties, Immersion, Part};
 
 /// Span and height of the diamond, and where its spars cross below the top, m; its mass, kg.
 const SPAN: f32 = 0.9;
@@ -16,6 +17,7 @@ const MASS: f32 = 0.07;
 const DIHEDRAL: f32 = 0.15;
 /// The point where the legs of the bridle meet: so far below the top, and in front of the sail, m.
 const BRIDLE: [f32; 2] = [0.18, 0.25];
+const TOW: Vector = Vector::new(CROSSING - BRIDLE[0], BRIDLE[1], 0.0);
 /// A fin at its foot, without which it turns about its line: half extents, how far its middle is behind the sail, m; kg.
 const FIN: [f32; 2] = [0.12, 0.15];
 const FIN_BEHIND: f32 = 0.05;
@@ -44,32 +46,24 @@ impl Kite {
         // The sail's frame: x toward the top, y its face, toward the line; the origin at the crossing.
         let (top, low, tip) = (CROSSING, CROSSING - HEIGHT, 0.5 * SPAN);
         let flat = sheet(&[[top, 0.0], [0.0, tip], [low, 0.0], [0.0, -tip]], 1e-3)?;
-        let mut parts = Vec::new();
-        for (hydro, fold) in strips(&flat, 8, -DIHEDRAL)? {
-            parts.push(Part::new(hydro).at(isometry(&fold)));
-        }
-        let tow = Vector::new(top - BRIDLE[0], BRIDLE[1], 0.0);
+        let mut parts = strips(&flat, 8, -DIHEDRAL)?;
         // Its top leans into the wind, not quite level.
         let turn = Rotation::from_rotation_z(2.95) * Rotation::from_rotation_x(0.02);
-        let pose = Pose::from_parts(Vector::new(0.4, 0.92, 0.0) * LINE - turn * tow, turn);
-        let body = RigidBodyBuilder::dynamic().pose(pose).can_sleep(false);
-        let kite = world.insert_body(body);
-        for right in [true, false] {
-            let side = if right { tip } else { -tip };
+        let pose = Pose::from_parts(Vector::new(0.4, 0.92, 0.0) * LINE - turn * TOW, turn);
+        let kite = world.insert_body(RigidBodyBuilder::dynamic().pose(pose).can_sleep(false));
+        for side in [tip, -tip] {
             let half = sheet(&[[top, 0.0], [0.0, side], [low, 0.0]], 1e-3)?;
-            let half = untouched(half, raised(right, -DIHEDRAL)).mass(0.5 * MASS);
+            let half = untouched(half, raised(side > 0.0, -DIHEDRAL)).mass(0.5 * MASS);
             world.insert_collider(half, Some(kite));
         }
         let fin = SharedShape::cuboid(FIN[0], FIN[1], 5e-4);
         let at = Pose::translation(low, -FIN_BEHIND, 0.0);
         let hydro = HydroProperties::from_shape(fin.as_ref())?;
-        parts.push(Part::new(hydro).at(isometry(&at)));
+        parts.push(Part::new(hydro).at(double(&at)));
         world.insert_collider(untouched(fin, at).mass(FIN_MASS), Some(kite));
-        let line = RopeJointBuilder::new(LINE).local_anchor2(tow);
-        world.insert_impulse_joint(ground, kite, line);
+        world.insert_impulse_joint(ground, kite, RopeJointBuilder::new(LINE).local_anchor2(TOW));
         immersion.set_flow(Uniform::new(WIND, 0.0, 0.0));
-        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, kite)?;
-        immersion.insert(kite, ImmersedBody::new(hydro).with_parts(parts));
+        immerse(&world, &mut immersion, kite, Some(parts))?;
         let mut tail = Vec::new();
         let (mut before, mut anchor) = (kite, Vector::X * low);
         for _ in 0..BOWS {
@@ -79,8 +73,7 @@ impl Kite {
             let (body, _) = world.insert(body.can_sleep(false), bow.mass(BOW));
             let string = SphericalJointBuilder::new().local_anchor1(anchor);
             world.insert_impulse_joint(before, body, string.local_anchor2(Vector::Y * APART));
-            let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, body)?;
-            immersion.insert(body, hydro);
+            immerse(&world, &mut immersion, body, None)?;
             tail.push(body);
             (before, anchor) = (body, Vector::ZERO);
         }
@@ -94,8 +87,7 @@ impl Kite {
 
     /// Where the legs of the bridle meet.
     pub fn tow_point(&self) -> Vector {
-        let tow = Vector::new(CROSSING - BRIDLE[0], BRIDLE[1], 0.0);
-        *self.world.bodies[self.kite].position() * tow
+        *self.world.bodies[self.kite].position() * TOW
     }
 
     /// Angle of the line above the ground, degrees, after so many seconds.
@@ -132,31 +124,26 @@ pub fn show() -> Result<Shown, Failure> {
         let [lift, drag, weight] = kite.loads();
         statics.push((time, (lift - weight).atan2(drag).to_degrees()));
     }
-    let line = vec![(0.0, 0.0), View::SIDE.of(kite.tow_point())];
-    side.items.push(Item::Line(line.clone(), GREY, 1));
+    let line = [(0.0, 0.0), View::SIDE.of(kite.tow_point())];
+    side.items.push(Item::Line(line.to_vec(), GREY, 1));
     // The legs of the bridle, from the top and the foot of the sail, and the string of the tail.
     let pose = kite.world.bodies[kite.kite].position();
     let [top, foot] = [CROSSING, CROSSING - HEIGHT].map(|x| View::SIDE.of(*pose * (Vector::X * x)));
     let place = |bow: &RigidBodyHandle| View::SIDE.of(kite.world.bodies[*bow].translation());
     let bows = [foot].into_iter().chain(kite.tail.iter().map(place));
     let strings = [vec![top, line[1], foot], bows.collect()];
-    let strings = strings.map(|points| Item::Line(points, GREY, 1));
-    near.items.extend(strings);
-    let mut all = kite.tail.clone();
-    all.push(kite.kite);
+    near.items
+        .extend(strings.map(|points| Item::Line(points, GREY, 1)));
+    let all = [&[kite.kite], &kite.tail[..]].concat();
     for items in [&mut side.items, &mut near.items] {
         items.extend(drawn(&kite.world, &all, View::SIDE, BLUE));
     }
-    let ([lift, drag, weight], stands) = (kite.loads(), angle[399].1);
-    let loads = statics[399].1;
+    let ([lift, drag, weight], stands, loads) = (kite.loads(), angle[399].1, statics[399].1);
     let lines = vec![
         format!("the line stands at {stands:.2}°, its loads at {loads:.2}°"),
         format!("lift {lift:.2} N, drag {drag:.2} N, weight {weight:.2} N"),
     ];
     curves.items = vec![Item::Line(statics, RED, 1), Item::Line(angle, BLUE, 2)];
-    Ok(Shown {
-        title: "A kite with a bridle and a tail on a line of 15 m in a wind of 6 m/s".into(),
-        panels: vec![side, near, curves],
-        lines,
-    })
+    let title = "A kite with a bridle and a tail on a line of 15 m in a wind of 6 m/s";
+    Ok(Shown::new(title, vec![side, near, curves], lines))
 }

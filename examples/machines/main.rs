@@ -23,6 +23,7 @@ mod kite;
 mod parachute;
 mod rov;
 mod shuttlecock;
+mod stage;
 mod twig;
 mod weather_vane;
 mod windmill;
@@ -44,7 +45,7 @@ const MACHINES: &[Machine] = &[
     ),
     (
         "glider",
-        "eight plates, put together in four ways",
+        "eight plates, put together in three ways",
         glider::show,
     ),
     (

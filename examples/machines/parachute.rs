@@ -2,8 +2,9 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, Shown, View, advance, drawn, world};
+use crate::film::{BLUE, GREY, Shown, View, drawn};
 use crate::fold::dome;
+use crate::stage::{advance, world};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
 use std::f32::consts::TAU;
@@ -126,9 +127,6 @@ pub fn show() -> Result<Shown, Failure> {
         ),
     ];
     curves.items.push(Item::Line(speed, BLUE, 2));
-    Ok(Shown {
-        title: "A flat round parachute of 1.2 m and 1 kg on eight lines".into(),
-        panels: vec![side, curves],
-        lines,
-    })
+    let title = "A flat round parachute of 1.2 m and 1 kg on eight lines";
+    Ok(Shown::new(title, vec![side, curves], lines))
 }

@@ -35,7 +35,7 @@ pub fn rings() -> impl Iterator<Item = [f64; 3]> {
 }
 
 /// Force on a ring over the density, m⁴/s², at a velocity in the body's axes, of bodies of revolution at incidence (Allen & Perkins,
-/// NACA Rep. 1048 (1951)): drag along the axle, the normal force of slender bodies where they grow, and drag across.
+/// NACA Rep. 1048 (1951); recalled): drag along the axle, the normal force of slender bodies where they grow, and drag across.
 pub fn force([_, grows, side]: [f64; 3], velocity: &Vector3<f64>) -> Vector3<f64> {
     let along = Vector3::new(velocity.x, 0.0, 0.0);
     let across = velocity - along;
@@ -137,9 +137,7 @@ pub fn show() -> Result<Shown, Failure> {
     let measured = Item::Line(vec![(0.0, 6.7), (4.0, 6.7)], GREY, 1);
     speeds.items.extend([measured, Item::Line(curve, BLUE, 2)]);
     let terminal = falling.velocity().length();
-    Ok(Shown {
-        title: "A shuttlecock thrown tail first at 25 m/s, and let fall".into(),
-        panels: vec![side, angle, speeds],
-        lines: vec![format!("falls at {terminal:.2} m/s (measured: 6.7)")],
-    })
+    let title = "A shuttlecock thrown tail first at 25 m/s, and let fall";
+    let lines = vec![format!("falls at {terminal:.2} m/s (measured: 6.7)")];
+    Ok(Shown::new(title, vec![side, angle, speeds], lines))
 }

@@ -2,11 +2,12 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREEN, GREY, RED, Shown, View, advance, drawn, untouched, world};
+use crate::film::{BLUE, GREEN, GREY, RED, Shown, View, drawn, greatest};
+use crate::stage::{advance, immerse, kinetic_energy, sprung, untouched, world};
 use plotters::style::RGBColor;
 use rapier3d_immersed::flow::Flow;
 use rapier3d_immersed::rapier3d::prelude::*;
-use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
+use rapier3d_immersed::{Fluid, Immersion};
 use std::f32::consts::TAU;
 
 /// From the side and a little along the twig.
@@ -46,15 +47,6 @@ impl Flow for Gusts {
     }
 }
 
-/// The joint with springs, N·m/rad, and dampers, N·m·s/rad, about its three axes.
-fn sprung(joint: GenericJointBuilder, stiffness: f32, damping: f32) -> GenericJointBuilder {
-    let axes = [JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ];
-    axes.into_iter().fold(joint, |joint, axis| {
-        let joint = joint.motor_position(axis, 0.0, stiffness, damping);
-        joint.motor_model(axis, MotorModel::ForceBased)
-    })
-}
-
 pub struct Twig {
     pub world: PhysicsWorld,
     pub immersion: Immersion,
@@ -77,8 +69,7 @@ impl Twig {
         let fixed = JointAxesMask::LIN_AXES | JointAxesMask::ANG_Z;
         let base = sprung(GenericJointBuilder::new(fixed), STIFF, DAMPED);
         world.insert_impulse_joint(branch, twig, base);
-        let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, twig)?;
-        immersion.insert(twig, hydro);
+        immerse(&world, &mut immersion, twig, None)?;
         let mut leaves = Vec::new();
         for i in 0..LEAVES {
             // Two and two, to the left and the right, each pair turned against the one before.
@@ -94,8 +85,7 @@ impl Twig {
             let (leaf, _) = world.insert(body, untouched(blade, out).density(DENSITY));
             let stalk = GenericJointBuilder::new(JointAxesMask::LIN_AXES).local_frame1(node);
             world.insert_impulse_joint(twig, leaf, sprung(stalk, BENDING, SLOW));
-            let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaf)?;
-            immersion.insert(leaf, hydro);
+            immerse(&world, &mut immersion, leaf, None)?;
             leaves.push(leaf);
         }
         Ok(Self {
@@ -122,12 +112,6 @@ impl Twig {
         };
         [mean(Vector::Y, true), mean(Vector::X, false)]
     }
-
-    /// Kinetic energy of all bodies, J.
-    pub fn kinetic_energy(&self) -> f64 {
-        let energy = |body: RigidBodyHandle| f64::from(self.world.bodies[body].kinetic_energy());
-        self.leaves.iter().copied().map(energy).sum::<f64>() + energy(self.twig)
-    }
 }
 
 pub fn show() -> Result<Shown, Failure> {
@@ -141,24 +125,21 @@ pub fn show() -> Result<Shown, Failure> {
             let time = 0.05 * f64::from(i);
             twig.run(0.05);
             angle.push((time, twig.angles(Vector::X)[1]));
-            energy.push((time, 1e3 * twig.kinetic_energy()));
+            energy.push((time, 1e3 * kinetic_energy(&twig.world)));
         }
         let title = format!("{mean} ± {swing} m/s, after 20 s");
         let mut view = Panel::new(title, "m", "m").equal();
         view.window = Some([(-0.1, 0.7), (-0.4, 0.4)]);
+        let wood = drawn(&twig.world, &[twig.twig], VIEW, BROWN);
         view.items = drawn(&twig.world, &twig.leaves, VIEW, GREEN);
-        view.items
-            .extend(drawn(&twig.world, &[twig.twig], VIEW, BROWN));
+        view.items.extend(wood);
         panels.push(view);
-        let most = energy.iter().map(|p| p.1).fold(0.0, f64::max);
+        let most = greatest(&energy);
         lines.push(format!("{mean} ± {swing} m/s: at most {most:.1} mJ"));
         curves.items.push(Item::Line(angle, color, 1));
         energies.items.push(Item::Line(energy, color, 1));
     }
     panels.extend([curves, energies]);
-    Ok(Shown {
-        title: "Leaves on a twig; below: still air (grey), 2 m/s (blue), 5 m/s (red)".into(),
-        panels,
-        lines,
-    })
+    let title = "Leaves on a twig; below: still air (grey), 2 m/s (blue), 5 m/s (red)";
+    Ok(Shown::new(title, panels, lines))
 }

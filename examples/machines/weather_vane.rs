@@ -121,9 +121,6 @@ pub fn show() -> Result<Shown, Failure> {
     let mut side = Panel::new("from the side, at rest", "x, m", "y, m").equal();
     let rest = WeatherVane::new(0.0, 240.0)?;
     side.items = drawn(&rest.world, &[rest.vane], View::SIDE, BLUE);
-    Ok(Shown {
-        title: "A weather vane in a wind of 6 m/s, let go at 170°, 90° and −45°".into(),
-        panels: vec![side, above, angles],
-        lines,
-    })
+    let title = "A weather vane in a wind of 6 m/s, let go at 170°, 90° and −45°";
+    Ok(Shown::new(title, vec![side, above, angles], lines))
 }

@@ -6,7 +6,8 @@
 
 use crate::Failure;
 use crate::draw::{Item, Panel};
-use crate::film::{BLUE, GREY, RED, Shown, View, around, drawn, single};
+use crate::film::{BLUE, GREY, RED, Shown, View, drawn};
+use crate::stage::{around, single};
 use rapier3d_immersed::flow::Uniform;
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::prelude::*;
@@ -85,10 +86,6 @@ pub fn show() -> Result<Shown, Failure> {
     let mill = Windmill::new(FRAC_PI_2 * 0.22, 6, 240.0)?;
     let mut front = Panel::new("against the wind", "−z, m", "y, m").equal();
     front.items = drawn(&mill.world, &[mill.rotor], View::FRONT, BLUE);
-    Ok(Shown {
-        title: "A windmill of flat blades in a wind of 6 m/s: pitched by 20°, −20° and not at all"
-            .into(),
-        panels: vec![front, curves],
-        lines,
-    })
+    let title = "A windmill of flat blades in a wind of 6 m/s: pitched by 20°, −20° and not at all";
+    Ok(Shown::new(title, vec![front, curves], lines))
 }

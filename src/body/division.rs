@@ -1,12 +1,12 @@
 //! Which colliders of a body are one surface to the fluid, and which are parts of their own.
 
+use super::bent::unfolded;
+use super::piece::Piece;
 use crate::error::Error;
-use crate::geometry::Surface;
-use crate::hydro::{AddedMass, Hull, HydroProperties};
+use crate::hydro::{AddedMass, HydroProperties};
 use crate::math::to_real;
 use rapier3d::math::Pose;
 use rapier3d::na::Vector3;
-use rapier3d::parry::query::distance;
 use rapier3d::parry::shape::Shape;
 use rapier3d::parry::transformation::try_convex_hull;
 
@@ -18,7 +18,8 @@ use rapier3d::parry::transformation::try_convex_hull;
 )]
 pub enum Division {
     /// Colliders that touch are one part if they are plates in one plane, if they fill their common hull, or if none of them is a
-    /// plate (as the pieces of a convex decomposition); every other is a part by itself.
+    /// plate (as the pieces of a convex decomposition); every other is a part by itself. Plates that meet edge to edge at an angle of
+    /// up to 60° stay parts, but are strips of one bent plate, with its aspect ratio: the halves of a wing with dihedral.
     #[default]
     Automatic,
     /// All are one.
@@ -27,66 +28,8 @@ pub enum Division {
     EachCollider,
 }
 
-/// Gap, over the size of the smaller of two colliders, up to which they touch.
-const GAP: f64 = 0.02;
-/// Cosine of the angle up to which plates are parallel: 5°.
-const PARALLEL: f64 = 0.996;
 /// Share of their common hull that colliders fill which make one solid together.
 const FILLED: f64 = 0.9;
-
-/// A piece of a body, or several that have become one.
-struct Piece<'a> {
-    shapes: Vec<(Pose, &'a dyn Shape)>,
-    surface: Surface,
-    hydro: HydroProperties,
-    volume: f64,
-}
-
-impl<'a> Piece<'a> {
-    fn new(shapes: Vec<(Pose, &'a dyn Shape)>, center: Vector3<f64>) -> Result<Self, Error> {
-        let surface = Surface::of_parts(&shapes, Surface::from_shape)?;
-        let hydro = HydroProperties::with_hull(&surface, Hull::of_parts(&shapes)?, center);
-        Ok(Self {
-            volume: hydro.volume,
-            shapes,
-            surface,
-            hydro,
-        })
-    }
-
-    fn is_plate(&self) -> bool {
-        self.hydro.bluff.is_none()
-    }
-
-    fn size(&self) -> f64 {
-        self.hydro.planform.half_extents.x
-    }
-
-    fn touches(&self, other: &Self) -> bool {
-        let gap = GAP * self.size().min(other.size());
-        self.shapes.iter().any(|(pose, shape)| {
-            let others = other.shapes.iter();
-            // Shapes of which parry knows no distance may touch.
-            let near = |(other_pose, other): &(Pose, &dyn Shape)| {
-                distance(pose, *shape, other_pose, *other)
-                    .is_ok_and(|d| f64::from(d.distance) <= gap)
-            };
-            others.into_iter().any(near)
-        })
-    }
-
-    /// Whether both are plates in one plane.
-    fn is_in_plane_with(&self, other: &Self) -> bool {
-        if !(self.is_plate() && other.is_plate()) {
-            return false;
-        }
-        let (a, b) = (&self.hydro.planform, &other.hydro.planform);
-        let (n, m) = (a.axes * Vector3::z(), b.axes * Vector3::z());
-        let apart = (b.center - a.center).dot(&n).abs();
-        let thick = a.half_extents.z + b.half_extents.z;
-        n.dot(&m).abs() > PARALLEL && apart <= thick
-    }
-}
 
 /// Whether pieces fill their common convex hull.
 fn are_convex<'a>(pieces: impl Iterator<Item = &'a Piece<'a>>) -> bool {
@@ -145,7 +88,19 @@ pub(super) fn parts_of(
     if pieces.len() < 2 {
         return Ok(Vec::new());
     }
+    if division == Division::Automatic {
+        return Ok(unfolded(&pieces, &touching(&pieces), center));
+    }
     Ok(pieces.into_iter().map(|piece| piece.hydro).collect())
+}
+
+/// Which of the pieces touch.
+fn touching(pieces: &[Piece]) -> Vec<(usize, usize)> {
+    let count = pieces.len();
+    (0..count)
+        .flat_map(|i| (i + 1..count).map(move |j| (i, j)))
+        .filter(|(i, j)| pieces[*i].touches(&pieces[*j]))
+        .collect()
 }
 
 /// Pieces of which those that are one have become one.
@@ -153,11 +108,7 @@ fn joined(pieces: Vec<Piece>, center: Vector3<f64>) -> Result<Vec<Piece>, Error>
     // Who touches whom, and which of them are one; the first of a group stands for it.
     let count = pieces.len();
     let mut group: Vec<usize> = (0..count).collect();
-    let touching = |i: usize, j: usize| pieces[i].touches(&pieces[j]);
-    let pairs: Vec<(usize, usize)> = (0..count)
-        .flat_map(|i| (i + 1..count).map(move |j| (i, j)))
-        .filter(|(i, j)| touching(*i, *j))
-        .collect();
+    let pairs = touching(&pieces);
     let join = |group: &mut Vec<usize>, i: usize, j: usize| {
         let (low, high) = (group[i].min(group[j]), group[i].max(group[j]));
         for of in group.iter_mut().filter(|of| **of == high) {

@@ -1,8 +1,10 @@
 //! The description of an immersed body: its shape as the fluid feels it, its law, and its own mass.
 
+mod bent;
 mod division;
 pub(crate) mod from_rapier;
 mod part;
+mod piece;
 mod thruster;
 
 pub use division::Division;

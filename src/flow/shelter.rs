@@ -14,7 +14,7 @@ const DEFICIT: Real = 0.9;
 ///
 /// A node that sees an obstacle upwind at a distance x misses `0.9/(1 + x/5h)` of the wind, h being the obstacle's
 /// height across the rays (the square root of its shadow): half of it five heights behind, a quarter fifteen, about what is measured
-/// behind solid fences and blocks (Perera, *J. Wind Eng. Ind. Aerodyn.* 8, 93 (1981): 40 to 50 % at 5 heights, 20 % at 15). Five
+/// behind solid fences and blocks (Perera, *J. Wind Eng. Ind. Aerodyn.* 8, 93 (1981), recalled: 40 to 50 % at 5 heights, 20 % at 15). Five
 /// rays, spread over a node's spacing, make the edges of the lee smooth.
 ///
 /// It is an average for one direction of the wind and for obstacles that stand still: no vortices are shed, no

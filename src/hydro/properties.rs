@@ -2,13 +2,22 @@
 
 use super::{AddedMass, BluffShape, Hull, Planform, Silhouette};
 use crate::error::Error;
-use crate::geometry::{Ellipsoid, Surface};
+use crate::geometry::{Ellipsoid, Surface, VolumeIntegrals};
 use rapier3d::na::{Matrix3, Rotation3, Vector3};
 use rapier3d::parry::shape::Shape;
 
 /// A shadow that is smaller by more than this than half of what the surface shows is that of a folded one: more than
 /// the lines that it is measured along miss of a round outline.
 const FOLDED: f64 = 3e-3;
+/// What the first two axes of a planform are.
+#[derive(Clone, Copy)]
+enum Order {
+    /// The longest and the next.
+    Descending,
+    /// The span and the chord of a plate, whichever is longer.
+    SpanFirst,
+}
+
 /// Thickness over width up to which a body is purely a plate to every law.
 pub(super) const THIN: f64 = 0.25;
 
@@ -92,7 +101,43 @@ impl HydroProperties {
     pub(crate) fn with_hull(surface: &Surface, hull: Hull, reference: Vector3<f64>) -> Self {
         let integrals = surface.volume_integrals();
         let axes = principal_axes(surface, &integrals.second_moment);
-        let mut planform = Planform::new(surface, &integrals, axes);
+        Self::along(
+            surface,
+            hull,
+            &integrals,
+            axes,
+            reference,
+            Order::Descending,
+        )
+    }
+
+    /// Those of a plate, with `span` (of any length, not along the normal) as the first axis of its planform, longest or not.
+    pub(crate) fn with_span(surface: &Surface, span: Vector3<f64>) -> Self {
+        let integrals = surface.volume_integrals();
+        let normal = principal_axes(surface, &integrals.second_moment) * Vector3::z();
+        let span = (span - normal * normal.dot(&span)).normalize();
+        let chord = normal.cross(&span);
+        let axes = Matrix3::from_columns(&[span, chord, normal]);
+        let axes = Rotation3::from_matrix_unchecked(axes);
+        Self::along(
+            surface,
+            Hull::from_surface(surface),
+            &integrals,
+            axes,
+            Vector3::zeros(),
+            Order::SpanFirst,
+        )
+    }
+
+    fn along(
+        surface: &Surface,
+        hull: Hull,
+        integrals: &VolumeIntegrals,
+        axes: Rotation3<f64>,
+        reference: Vector3<f64>,
+        order: Order,
+    ) -> Self {
+        let mut planform = Planform::new(surface, integrals, axes);
         // No shadow is larger than that of the box.
         let [x, y, z]: [f64; 3] = planform.half_extents.into();
         let boxed = Vector3::new(y * z, z * x, x * y) * 4.0;
@@ -110,10 +155,10 @@ impl HydroProperties {
                 }
             }
             if planform.area > around[2].area * (1.0 + FOLDED) {
-                planform.unfold(&around[2], &integrals);
+                planform.unfold(&around[2], integrals);
             }
         }
-        let proxy = rounded(ellipsoid_with_shadows(shadows));
+        let proxy = rounded(ellipsoid_with_shadows(shadows, order));
         let bluff = (proxy.semi_axes.z > THIN * proxy.semi_axes.y)
             .then(|| BluffShape::new(surface, integrals.centroid, &axes, shadows, convex));
         let added_mass = proxy
@@ -242,7 +287,7 @@ fn rounded(mut proxy: Ellipsoid) -> Ellipsoid {
 
 /// The ellipsoid whose shadows along its axes have these areas: exact for an ellipsoid, and for a
 /// plate of any outline it has the right planform.
-fn ellipsoid_with_shadows(shadows: Vector3<f64>) -> Ellipsoid {
+fn ellipsoid_with_shadows(shadows: Vector3<f64>, order: Order) -> Ellipsoid {
     let [x, y, z]: [f64; 3] = shadows.into();
     let pi = std::f64::consts::PI;
     let mut semi_axes = Vector3::new(
@@ -251,8 +296,11 @@ fn ellipsoid_with_shadows(shadows: Vector3<f64>) -> Ellipsoid {
         (x * y / (pi * z)).sqrt(),
     );
     // The laws rely on x ≥ y ≥ z, which the second moments gave but a strange shape's shadows
-    // need not.
-    semi_axes.y = semi_axes.y.min(semi_axes.x);
+    // need not; of a plate they rely on z alone.
+    match order {
+        Order::Descending => semi_axes.y = semi_axes.y.min(semi_axes.x),
+        Order::SpanFirst => semi_axes.z = semi_axes.z.min(semi_axes.x),
+    }
     semi_axes.z = semi_axes.z.min(semi_axes.y);
     Ellipsoid { semi_axes }
 }

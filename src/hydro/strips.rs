@@ -1,9 +1,9 @@
-//! Strips of a plate across its longest axis, for wings and blades whose sections meet different flows.
+//! Strips of a plate side by side along its span, for wings and blades whose sections meet different flows.
 
 use super::{AddedMass, Hull, HydroProperties, Planform};
 use crate::error::Error;
 use crate::geometry::Surface;
-use rapier3d::na::{Vector2, Vector3};
+use rapier3d::na::{Rotation3, Vector2, Vector3};
 use rapier3d::parry::shape::Shape;
 
 impl HydroProperties {
@@ -35,49 +35,133 @@ impl HydroProperties {
         Self::strips_of_surface(&Surface::from_shape(shape)?, count)
     }
 
-    /// Strips of the solid that a thin closed surface bounds.
+    /// Strips of a thin shape, side by side along a span of the user's, in the shape's frame, which need not be the longest
+    /// axis: a wing that is longer than wide, a low-aspect blade that turns about its short side.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::{na::Vector3, prelude::*};
+    /// use rapier3d_immersed::HydroProperties;
+    ///
+    /// // A paddle wheel's board, 10 cm out from the axle and 30 cm along it.
+    /// let board = Cuboid::new(Vector::new(0.05, 0.002, 0.15));
+    /// let strips = HydroProperties::strips_of_shape_along(&board, Vector3::x(), 5)?;
+    /// assert!((strips[0].planform.center.x + 0.04).abs() < 1e-6);
+    /// assert!((strips[0].planform.half_extents.x - 0.05).abs() < 1e-6);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`HydroProperties::strips_of_shape`], [`Error::NotFinite`], and [`Error::InvalidParameter`] if the span
+    /// has no length or does not lie in the plate.
+    pub fn strips_of_shape_along(
+        shape: &dyn Shape,
+        span: Vector3<f64>,
+        count: usize,
+    ) -> Result<Vec<Self>, Error> {
+        Self::strips_of_surface_along(&Surface::from_shape(shape)?, span, count)
+    }
+
+    /// Strips of the solid that a thin closed surface bounds, along its longest axis.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there shall be none or more than a thousand; [`Error::InvalidParameter`] if the body is
     /// thicker than a quarter of its width: only plates are divided.
     pub fn strips_of_surface(surface: &Surface, count: usize) -> Result<Vec<Self>, Error> {
-        Error::check_range("number of strips", count as f64, 1.0, 1000.0)?;
         let whole = Self::from_surface(surface, Vector3::zeros());
-        let semi_axes = &whole.proxy.semi_axes;
-        let ratio = semi_axes.z / semi_axes.y;
-        let plate = whole.bluff.is_none();
-        Error::check(
-            "thickness over width of a body that is divided into strips",
-            ratio,
-            plate,
-            "at most 0.25",
-        )?;
-        let axes = whole.planform.axes;
-        let to_plate = axes.inverse();
-        let flat: Vec<[Vector3<f64>; 3]> = surface
-            .corners()
-            .map(|corners| corners.map(|corner| to_plate * corner))
-            .collect();
-        let along = || flat.iter().flatten().map(|corner| corner.x);
-        let low = along().fold(f64::INFINITY, f64::min);
-        let high = along().fold(f64::NEG_INFINITY, f64::max);
-        let width = (high - low) / count as f64;
-        let height = (to_plate * whole.centroid).z;
-        let span = axes * Vector3::x();
-        let strips = (0..count).map(|i| {
-            let from = low + width * i as f64;
-            let mut pieces = Vec::new();
-            for triangle in &flat {
-                let inside = cut(cut(triangle.to_vec(), from, 1.0), from + width, -1.0);
-                for i in 2..inside.len() {
-                    pieces.push([inside[0], inside[i - 1], inside[i]]);
-                }
-            }
-            let hull = whole.hull.slice(&span, from, from + width)?;
-            strip(&whole, &pieces, height, width, hull)
-        });
-        Ok(strips.flatten().collect())
+        strips_of(&whole, surface, count)
     }
+
+    /// Strips of the solid that a thin closed surface bounds, along a span in the surface's frame.
+    ///
+    /// # Errors
+    /// Those of [`HydroProperties::strips_of_surface`] and [`HydroProperties::strips_of_shape_along`].
+    pub fn strips_of_surface_along(
+        surface: &Surface,
+        span: Vector3<f64>,
+        count: usize,
+    ) -> Result<Vec<Self>, Error> {
+        Error::check_all_finite("span of strips", span.as_slice())?;
+        let length = span.norm();
+        Error::check_positive("length of the span of strips", length)?;
+        let plate = Self::from_surface(surface, Vector3::zeros());
+        let normal = plate.planform.axes * Vector3::z();
+        let out = (normal.dot(&span) / length).abs();
+        let lies = out <= OUT_OF_PLANE;
+        Error::check(
+            "sine of the angle between the span of strips and the plate",
+            out,
+            lies,
+            "at most 0.1",
+        )?;
+        strips_of(&Self::with_span(surface, span), surface, count)
+    }
+
+    /// What the fluid feels of a piece of a plate, given by its own surface, which reaches across the whole of the plate's
+    /// chord: a strip, in the plate's frame, referred to its own middle.
+    pub(crate) fn strip(&self, piece: &Surface) -> Option<Self> {
+        let to_plate = self.planform.axes.inverse();
+        let triangles = in_axes(piece, &to_plate);
+        let (low, high) = range(&triangles);
+        let own = piece.volume_integrals();
+        let height = (to_plate * own.centroid).z;
+        let hull = Hull::from_surface(piece);
+        let mut strip = strip(self, &triangles, height, high - low, hull)?;
+        strip.planform.thickness = own.volume / strip.planform.area;
+        Some(strip)
+    }
+}
+
+/// Sine of the angle to the plate up to which a span lies in it.
+const OUT_OF_PLANE: f64 = 0.1;
+
+fn strips_of(
+    whole: &HydroProperties,
+    surface: &Surface,
+    count: usize,
+) -> Result<Vec<HydroProperties>, Error> {
+    Error::check_range("number of strips", count as f64, 1.0, 1000.0)?;
+    let semi_axes = &whole.proxy.semi_axes;
+    let ratio = semi_axes.z / semi_axes.y.min(semi_axes.x);
+    let plate = whole.bluff.is_none();
+    Error::check(
+        "thickness over width of a body that is divided into strips",
+        ratio,
+        plate,
+        "at most 0.25",
+    )?;
+    let to_plate = whole.planform.axes.inverse();
+    let flat = in_axes(surface, &to_plate);
+    let (low, high) = range(&flat);
+    let width = (high - low) / count as f64;
+    let height = (to_plate * whole.centroid).z;
+    let span = whole.planform.axes * Vector3::x();
+    let strips = (0..count).map(|i| {
+        let from = low + width * i as f64;
+        let mut pieces = Vec::new();
+        for triangle in &flat {
+            let inside = cut(cut(triangle.to_vec(), from, 1.0), from + width, -1.0);
+            for i in 2..inside.len() {
+                pieces.push([inside[0], inside[i - 1], inside[i]]);
+            }
+        }
+        let hull = whole.hull.slice(&span, from, from + width)?;
+        strip(whole, &pieces, height, width, hull)
+    });
+    Ok(strips.flatten().collect())
+}
+
+/// The triangles of a surface in the axes of a plate.
+fn in_axes(surface: &Surface, to_plate: &Rotation3<f64>) -> Vec<[Vector3<f64>; 3]> {
+    let corners = surface.corners();
+    corners.map(|c| c.map(|corner| to_plate * corner)).collect()
+}
+
+/// How far triangles reach along the span, from its lower to its upper end.
+fn range(triangles: &[[Vector3<f64>; 3]]) -> (f64, f64) {
+    let along = triangles.iter().flatten().map(|corner| corner.x);
+    along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    })
 }
 
 /// The part of a polygon where `sign·(x − at) ≥ 0`.
@@ -230,6 +314,43 @@ mod tests {
             assert!((own - chord).abs() < 0.01, "{own} {chord}");
             let aspect = 4.0 * plate.half_extents.x.powi(2) * plate.fraction / plate.area;
             assert!((aspect - 8.0).abs() < 1e-4, "{aspect}");
+        }
+    }
+
+    /// A plate divided along its longer side is the same whether that is found or told; one divided along its shorter side has
+    /// that as its span, and the same area and volume.
+    #[test]
+    fn along_a_span_that_is_told() {
+        let plate = Cuboid::new(Vector::new(0.3, 0.001, 0.05));
+        let found = HydroProperties::strips_of_shape(&plate, 5).unwrap();
+        let told = HydroProperties::strips_of_shape_along(&plate, Vector3::x() * 7.0, 5).unwrap();
+        for (a, b) in found.iter().zip(&told) {
+            assert!((a.planform.center - b.planform.center).norm() < 1e-9);
+            assert!((a.planform.second_moment - b.planform.second_moment).amax() < 1e-12);
+            assert!((a.planform.half_extents - b.planform.half_extents).amax() < 1e-9);
+            assert!((a.proxy.semi_axes - b.proxy.semi_axes).amax() < 1e-9);
+        }
+        let across = HydroProperties::strips_of_shape_along(&plate, Vector3::z(), 5).unwrap();
+        let area: f64 = across.iter().map(|s| s.planform.area).sum();
+        let volume: f64 = across.iter().map(|s| s.volume).sum();
+        assert!((area - 0.06).abs() < 1e-7 && (volume - 1.2e-4).abs() < 1e-9);
+        for (i, strip) in across.iter().enumerate() {
+            let plate = &strip.planform;
+            assert!((plate.center.z - 0.02 * (i as f64 - 2.0)).abs() < 1e-7);
+            assert!((plate.half_extents - Vector3::new(0.05, 0.3, 0.001)).amax() < 1e-7);
+            // Helmbold's law sees 4b²/A of the whole, whichever side the flow comes from.
+            let aspect = |b: f64| 4.0 * b * b * plate.fraction / plate.area;
+            assert!((aspect(plate.half_extents.x) - 1.0 / 6.0).abs() < 1e-4);
+            assert!((aspect(plate.half_extents.y) - 6.0).abs() < 1e-3);
+            strip.check().unwrap();
+        }
+        let error = |span| HydroProperties::strips_of_shape_along(&plate, span, 5).unwrap_err();
+        for (span, says) in [
+            (Vector3::zeros(), "length of the span"),
+            (Vector3::y(), "sine of the angle"),
+            (Vector3::new(f64::NAN, 0.0, 0.0), "span of strips"),
+        ] {
+            assert!(error(span).to_string().contains(says), "{}", error(span));
         }
     }
 

@@ -9,7 +9,7 @@ use rapier3d_immersed::rapier3d::prelude::*;
 /// of them lift by `F = 2ρ C_L c (ω²a³/3 + V²a/2)`, and roll about the path by
 /// `M = 4 ∫ r ⟨sin ψ …⟩ dr = (2/3) ρ C_L c ω V a³`, so that the axle turns at M/(Iω), and the path with it if F = mV M/(Iω):
 /// along a circle of the radius `V I ω/M = 3I/(2ρ C_L c a³)`, whatever V (after F. Hess, *Boomerangs, Aerodynamics and Motion*,
-/// 1975). Inertia I and the spin of that F at a speed.
+/// 1975; recalled). Inertia I and the spin of that F at a speed.
 struct Circle {
     radius: f64,
     spin_over_speed: f64,

@@ -21,6 +21,8 @@ mod frisbee;
 #[path = "../../examples/machines/shuttlecock.rs"]
 #[allow(dead_code, reason = "shared with the example")]
 mod shuttlecock;
+#[path = "../../examples/machines/stage.rs"]
+mod stage;
 #[path = "../../examples/machines/weather_vane.rs"]
 #[allow(dead_code, reason = "shared with the example")]
 mod weather_vane;

@@ -1,5 +1,6 @@
 //! Leaves on a twig.
 
+use crate::stage::kinetic_energy;
 use crate::twig::{Gusts, Twig};
 use rapier3d_immersed::rapier3d::prelude::*;
 
@@ -9,7 +10,7 @@ fn blown(mean: f32, swing: f32, hz: f32) -> ([f64; 2], f64, f64) {
     let (mut angles, mut energies) = ([0.0; 2], Vec::new());
     for i in 0..400 {
         twig.run(0.05);
-        energies.push(twig.kinetic_energy());
+        energies.push(kinetic_energy(&twig.world));
         if i >= 200 {
             let [normal, long] = twig.angles(Vector::X);
             angles[0] += normal / 200.0;

@@ -58,8 +58,9 @@ const FAR: Real = 1.0;
 const LONGER: Real = 20.0;
 /// Turn in a step, rad, from which on the moments of joints are not counted on.
 const STEADY: Real = 0.05;
-/// Turn in a step, rad, below which it does not matter whether the impulse turns with the body.
-const NEAR: Real = 0.02;
+/// Turn in a step, rad, below which rounding hides whether the impulse turns with the body. It matters down to there: what lags behind a
+/// link that swings by an angle a step brakes it by as much.
+const NEAR: Real = 1e-5;
 
 /// The mass that a jointed body shows rapier: along the last impulse of its joints; the largest until that
 /// is known, so that the first impulse is that of the whole fluid where the body moves broadside on.

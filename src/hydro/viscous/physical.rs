@@ -203,12 +203,12 @@ const MID_ENDS: f64 = 400.0;
 /// Broadside drag coefficient of a disc above Re ≈ 10³ (Hoerner, *Fluid-Dynamic Drag*).
 const DISC_PLATEAU: f64 = 1.17;
 
-/// Broadside drag coefficient of a rectangle by its slenderness b/a ≥ 1, linear in a/b between the
+/// Broadside drag coefficient of a rectangle by its slenderness b/a, whichever is longer, linear in a/b between the
 /// tabulated 1, 5, 10, ∞ (DNV-RP-C205, appendix E); for a plate that is rounder than a rectangle,
 /// `fill` (planform over its box: π/4 for ellipses) leads over to the disc.
 fn broadside_drag(slenderness: f64, fill: f64) -> f64 {
     const TABLE: [(f64, f64); 4] = [(0.0, 1.90), (0.1, 1.50), (0.2, 1.20), (1.0, 1.16)];
-    let x = (1.0 / slenderness).clamp(0.0, 1.0);
+    let x = slenderness.min(1.0 / slenderness).max(0.0);
     let rectangle = TABLE.windows(2).find(|w| x <= w[1].0).map_or(1.16, |w| {
         w[0].1 + (w[1].1 - w[0].1) * (x - w[0].0) / (w[1].0 - w[0].0)
     });

@@ -8,6 +8,7 @@ mod joints;
 mod locked;
 mod moments;
 mod pendulum;
+mod swimmer;
 mod swing;
 mod touching;
 mod windmill;
