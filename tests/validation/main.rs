@@ -32,4 +32,5 @@ mod static_polars;
 
 mod support;
 mod thesis_law;
+mod trim;
 mod turbulence;
