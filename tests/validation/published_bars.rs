@@ -57,7 +57,11 @@ fn plates_in_water() {
     assert_falls(
         SectionName::Plates,
         41,
-        &["plate β = 1/14, descent, stand-alone"],
+        &[
+            "plate β = 1/9.5, regime, dt/2",
+            "plate β = 1/14, descent, stand-alone",
+            "plate β = 1/14, descent, rapier, 4 dt",
+        ],
     );
 }
 

@@ -79,14 +79,14 @@ fn flown(law: PhysicalLaw, forward: f64) -> f64 {
     fall.ratio
 }
 
-/// What a card of aspect ratio 3 can glide at Re 8000 is 5 (theory, at 6°); trimmed at 14°, it is 3.4 in theory, and what the law's
+/// What a card of aspect ratio 3 can glide at Re 8000 is 6.2 (theory, at 4°); trimmed at 16°, it is 3.2 in theory, and what the law's
 /// own lift and drag say in flight.
 #[test]
 fn a_weighted_card_glides_at_its_trim() {
     let degrees = |angle: f64| theory(angle.to_radians());
     let best = (1..=20).map(|i| glide(f64::from(i).to_radians(), degrees(f64::from(i))));
     let best = best.fold(0.0, f64::max);
-    assert!((best - 5.0).abs() < 0.4, "{best}");
+    assert!((best - 6.2).abs() < 0.2, "{best}");
     let law = PhysicalLaw::default();
     for forward in [0.20, 0.22] {
         let (angle, forces) = trim(law, forward);
@@ -140,7 +140,10 @@ fn the_center_of_pressure_goes_back_before_the_stall() {
     let start = law.pressure_travel * (1.0 + (1.0 - eta).powi(4));
     for share in [0.3, 0.6, 0.9] {
         let [_, _, ahead] = held(law, (share * stall).asin(), 3.0);
-        let exact = start * (1.0 - 0.7 * (1.0 - eta * eta).powi(2) * share * share);
+        // The point is c u_t/|u| ahead.
+        let ahead_of_middle = (share * stall).asin().cos();
+        let exact =
+            start * ahead_of_middle * (1.0 - 0.7 * (1.0 - eta * eta).powi(2) * share * share);
         // Skin friction and creeping flow have no moment, but creeping flow a normal force of 1 %.
         assert!(
             (ahead / exact - 1.0).abs() < 0.02,
