@@ -11,17 +11,19 @@ const SIZE: [f64; 3] = [0.15, 3e-4, 0.05];
 const DENSITY: f64 = 1000.0;
 
 /// Normal and axial force coefficient, and how far the center of pressure is ahead of the middle in chords, of a card held
-/// in a stream of this angle, rad, and speed, m/s.
-fn held(law: PhysicalLaw, angle: f64, speed: f64) -> [f64; 3] {
+/// in a stream of this angle, rad, and speed, m/s. `munk` is 1 where the moment of the added mass, which a free card feels too, counts.
+fn held(law: PhysicalLaw, angle: f64, speed: f64, munk: f32) -> [f64; 3] {
     let (body, mass) = solid_box(SIZE, DENSITY, ViscousLaw::Physical(law));
     let air = Fluid::new(1.2, 1.5e-5).unwrap();
     let mut card = FreeBody::new(&body, &mass, &air).unwrap();
     let velocity = Vector3::new(0.0, -angle.sin(), angle.cos()) * speed;
     card.set_velocity(velocity, Vector3::zeros());
-    let viscous = card.forces(Vector3::zeros()).viscous();
+    let forces = card.forces(Vector3::zeros());
+    let viscous = forces.viscous();
     let dynamic = 0.5 * 1.2 * speed * speed * SIZE[0] * SIZE[2];
     let normal = f64::from(viscous.force.y);
-    let ahead = -f64::from(viscous.torque.x) / normal / SIZE[2];
+    let moment = viscous.torque.x + munk * forces.added_mass.torque.x;
+    let ahead = -f64::from(moment) / normal / SIZE[2];
     [
         normal / dynamic,
         -f64::from(viscous.force.z) / dynamic,
@@ -54,8 +56,8 @@ fn theory(angle: f64) -> [f64; 2] {
 /// Where the center of pressure is `forward` chords ahead of the middle: angle of attack and force coefficients.
 fn trim(law: PhysicalLaw, forward: f64) -> (f64, [f64; 2]) {
     let at = |angle: f64| {
-        let [normal, axial, _] = held(law, angle, 2.4);
-        held(law, angle, speed([normal, axial]))
+        let [normal, axial, _] = held(law, angle, 2.4, 1.0);
+        held(law, angle, speed([normal, axial]), 1.0)
     };
     let (mut low, mut high) = (3f64.to_radians(), 25f64.to_radians());
     for _ in 0..40 {
@@ -139,7 +141,7 @@ fn the_center_of_pressure_goes_back_before_the_stall() {
     let stall = law.stall_sine + law.stall_aspect / aspect;
     let start = law.pressure_travel * (1.0 + (1.0 - eta).powi(4));
     for share in [0.3, 0.6, 0.9] {
-        let [_, _, ahead] = held(law, (share * stall).asin(), 3.0);
+        let [_, _, ahead] = held(law, (share * stall).asin(), 3.0, 0.0);
         // The point is c u_t/|u| ahead.
         let ahead_of_middle = (share * stall).asin().cos();
         let exact =
