@@ -32,7 +32,7 @@ fn alone(body: &RigidBody, immersed: &ImmersedBody, dry: &DryMass, fluid: &Fluid
 /// added inertia of the old fluid reached 76,000 rad/s here.
 #[test]
 fn what_changes_in_flight_acts_at_once() {
-    let big = SharedShape::cuboid(0.3, 0.000_15, 0.2);
+    let big = SharedShape::cuboid(0.15, 0.000_15, 0.1);
     let big = HydroProperties::from_shape(big.as_ref()).unwrap();
     for what in ["air to water", "water to air", "shape", "law"] {
         let (from, to) = match what {

@@ -34,4 +34,5 @@ mod static_polars;
 mod support;
 mod surface;
 mod thesis_law;
+mod trim;
 mod turbulence;

@@ -24,16 +24,18 @@ coefficients! {
     ///   pitch rate `r = (c/2|u|) dα/dt` as it does on helicopter blades (Gormont 1973): rotation that
     ///   raises the angle of attack delays the stall, by `s_d` at most, rotation that lowers it hastens
     ///   it. Without this plates that glide well no longer tumble.
-    /// * **Normal force** `½ρA C_N |v|²` with `C_N = s [f (2πhη + K_v (1 − η)² s) + (1 − f) 2 C_s]`:
+    /// * **Normal force** `½ρA C_N |v|²` with `C_N = s [f (2πhη + K_v (1 − η)² s) + (1 − f) 2 (C_s + C_t η² cos⁴α/(1 + (ω_t c/|u|r_t)²))]`:
     ///   Helmbold's lift slope, the vortex lift of the side edges (Polhamus 1966: π for slender wings),
-    ///   and separated flow. With sin⁴α it turns into the measured drag coefficient C_D90 broadside on,
+    ///   and separated flow, which pushes more behind a wide plate that keeps its angle than behind one that turns. With sin⁴α it turns into the measured drag coefficient C_D90 broadside on,
     ///   which passes to Stokes as Re → 0. It is applied as a resistance plus a turning force that together
     ///   are normal to the plate, so that a stalled plate does not push itself along; attached flow keeps
     ///   `1 − k_s` of the suction at its leading edge. The turning force fades below the onset of the
     ///   wake (Re ≈ 100).
-    /// * **Center of pressure** `p = c u_t/|u| [f χ (1 + (1 − η)⁴) + (1 − f) χ_s] Re/(Re + Re_χ)`: a
+    /// * **Center of pressure** `p = c u_t/|u| [f χ (1 + (1 − η)⁴)(1 − k_r (1 − η²)² (s/s_e)²) + (1 − f) χ_s] Re/(Re + Re_χ)`: a
     ///   quarter of the chord behind the leading edge in two dimensions, at the leading edge of slender
-    ///   wings (Jones 1946), within .02 chord of a vortex lattice between; in creeping flow in the middle.
+    ///   wings (Jones 1946), within .02 chord of a vortex lattice between; in creeping flow in the middle. The bubble
+    ///   behind a sharp leading edge, which grows toward the stall, moves it back before the lift drops: that is what
+    ///   trims a weighted card well below its stall.
     /// * **Rotational lift** `ρAc (πhη/4)(1 − ε sin²α) ω_t × v`: the circulation follows the angle of
     ///   attack at ¾ of the chord (Pistolesi's theorem), so that no coefficient of its own is needed.
     /// * **Induced drag of the rotation** `C_Di = k_i C_L C_R/(π AR)` (linear for C_L ≫ 3), C_R being its
@@ -75,6 +77,11 @@ coefficients! {
         stalled_lift: 0.565, NotNegative, search 0.4 to 1.3;
         /// C_s of narrow plates.
         stalled_lift_narrow: 0.997, NotNegative, search 0.4 to 1.2;
+        /// C_t: what C_s has more on wide plates that are held past their stall, where C_N rises less than with sin α: 0.95 at
+        /// 20° to 1.61 at 45° in two dimensions (`1/(0.222 + 0.283/sin α)`: Hoerner, *Fluid-Dynamic Drag*).
+        steady_lift: 0.8, NotNegative;
+        /// r_t: rotation, radians per chord of way, at which half of that is lost.
+        steady_rate: 0.03, Positive;
         /// s₀: sine of the angle of attack at which the flow stalls in two dimensions.
         stall_sine: 0.136, NotNegative, search 0.08 to 0.35;
         /// s₁: what is added to it per 1/AR.
@@ -90,6 +97,10 @@ coefficients! {
         pitch_stall_narrow: 0.0135, NotNegative, search 0.0 to 3.0;
         /// s_d: greatest delay of the stall's sine by rotation.
         stall_delay: 0.0146, NotNegative, search 0.0 to 0.6;
+        /// k_r: share of χ that the center of pressure has lost where the flow stalls; of narrow plates. Measured on thin
+        /// plates: `0.3 − 3.5 α²` of attached flow that stalls at 14° (Li, Goodwill, Wang & Ristroph, *J. Fluid Mech.*
+        /// 937, A9 (2022)), 0.70 of it at the stall. Wide plates that tumble (AR 29) do not show it.
+        pressure_retreat: 0.7, Unit, search 0.0 to 1.0;
         /// χ_s: travel of the center of pressure in separated flow, in chords; of wide plates.
         stalled_travel: 0.134, NotNegative, search 0.0 to 0.25;
         /// χ_s of narrow plates.
@@ -166,6 +177,9 @@ scalar_struct! {
         vortex_lift: T,
         /// At wide plates, and what is added at narrow ones.
         stalled_lift: Vector2<T>,
+        steady_lift: T,
+        /// 1/r_t.
+        steady_rate: T,
         stall_sine: T,
         stall_aspect: T,
         stall_limit: T,
@@ -173,6 +187,7 @@ scalar_struct! {
         pitch_stall: Vector2<T>,
         stall_delay: T,
         pressure_travel: T,
+        pressure_retreat: T,
         stalled_travel: Vector2<T>,
         travel_onset: T,
         rotational_stall: Vector2<T>,
@@ -333,6 +348,8 @@ impl PhysicalLaw {
                 2.0 * share * self.stalled_lift,
                 2.0 * share * self.stalled_lift_narrow,
             ),
+            steady_lift: 2.0 * share * self.steady_lift,
+            steady_rate: 1.0 / self.steady_rate,
             stall_sine: self.stall_sine,
             stall_aspect: self.stall_aspect,
             stall_limit: self.stall_limit,
@@ -340,6 +357,7 @@ impl PhysicalLaw {
             pitch_stall: between(self.pitch_stall, self.pitch_stall_narrow),
             stall_delay: self.stall_delay,
             pressure_travel: self.pressure_travel * share,
+            pressure_retreat: self.pressure_retreat,
             stalled_travel: between(
                 self.stalled_travel * share,
                 self.stalled_travel_narrow * share,
@@ -407,7 +425,10 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
 
         // Pressure point and its velocity.
         let stalled_travel = at_aspect(self.stalled_travel);
-        let attached_travel = self.pressure_travel * (one + slender2 * slender2);
+        let narrow = (one - wide) / steady.max(constant(0.03));
+        let retreat = self.pressure_retreat * narrow * narrow * sine_center2;
+        let attached_travel =
+            self.pressure_travel * (one + slender2 * slender2) * (one - retreat).max(zero);
         let travel = (stalled_travel + attached * (attached_travel - stalled_travel))
             * chord
             * per_speed
@@ -439,7 +460,12 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
 
         // Normal force over sin α; broadside on it is the drag's.
         let slope = self.lift_slope * finite;
-        let stalled = at_aspect(self.stalled_lift);
+        let spin = (w.x * w.x + w.y * w.y).sqrt();
+        let per_chord = spin * chord * per_speed * self.steady_rate;
+        let cosine_center2 = one - sine_center2;
+        let stalled = at_aspect(self.stalled_lift)
+            + self.steady_lift * wide * cosine_center2 * cosine_center2
+                / (one + per_chord * per_chord);
         let vortex = self.vortex_lift * slender2 * sine.abs();
         let normal = stalled + attached * (slope + vortex - stalled);
         let normal = normal - sine2 * sine2 * (normal - across).max(zero);
@@ -463,7 +489,6 @@ impl<T: Scalar> Evaluate<T> for PhysicalConstants<T> {
         let lift = (translational * tangential2 * along + turned).abs();
         let turned = turned.abs();
         let dynamic = self.dynamic_area * v_speed;
-        let spin = (w.x * w.x + w.y * w.y).sqrt();
         let induced = self.induced_drag * lift * turned * per_aspect
             / (dynamic + constant(0.3) * lift).max(tiny);
         let drag = dynamic * (edgewise + pressure * sine2) + induced;

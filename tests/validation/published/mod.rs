@@ -24,6 +24,7 @@ pub mod report;
 pub mod runner;
 pub mod samara;
 mod seed;
+mod strips;
 mod thesis;
 
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
@@ -74,6 +75,8 @@ pub enum SectionName {
     Polars,
     /// Weighted cards that glide
     Gliders,
+    /// Strips that tumble: how fast, and from which mass on
+    Strips,
     /// A maple seed that spins
     Seed,
     /// Drag of spheres and broadside discs over the Reynolds number
@@ -108,6 +111,7 @@ impl SectionName {
             Self::Papers => "papers",
             Self::Polars => "polars",
             Self::Gliders => "gliders",
+            Self::Strips => "strips",
             Self::Seed => "seed",
             Self::Drag => "drag",
             Self::Bluff => "bluff",
@@ -127,6 +131,7 @@ impl SectionName {
             Self::Papers => "paper in air",
             Self::Polars => "static polars",
             Self::Gliders => "gliders",
+            Self::Strips => "strips that tumble",
             Self::Seed => "maple seed",
             Self::Drag => "drag of spheres and discs",
             Self::Bluff => "drag of bodies that are not plates",
@@ -147,6 +152,7 @@ impl SectionName {
             Self::Papers => papers::compute(effort, progress)?,
             Self::Polars => polars::compute(effort, progress)?,
             Self::Gliders => gliders::compute(effort, progress)?,
+            Self::Strips => strips::compute(effort, progress)?,
             Self::Seed => seed::compute(effort, progress)?,
             Self::Drag => drag::compute(effort, progress)?,
             Self::Bluff => bluff::compute(effort, progress)?,
