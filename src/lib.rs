@@ -28,7 +28,7 @@
 //! | choose how the fluid pushes back | [`ImmersedBody`], [`ViscousLaw`] |
 //! | know what a shape's added mass is | [`HydroProperties::added_mass`], [`Accuracy`], [`boundary_element`] |
 //! | let the fluid move | [`flow`], [`turbulence`] |
-//! | give water a surface, with waves | [`free_surface`] |
+//! | let bodies float, give water a surface with waves | [`Medium`], [`free_surface`], [`Immersion::hydrostatics`] |
 //! | see every force on a body | [`Immersion::forces`] |
 //! | steer how a body falls | [`Immersion::set_control`], [`Immersion::replay`], [`training`] |
 //! | fly one body without rapier, in f64 | [`FreeBody`] |
@@ -49,9 +49,9 @@
 //!    interning             equal values, stored once
 //!      motion              patterns, phase diagram, codebooks, paths
 //!     dynamics             Kirchhoff's equations, the integrator, FreeBody
-//!       body               ImmersedBody, DryMass
+//!   body   medium          ImmersedBody, DryMass; layers of fluid
 //! hydro   turbulence       added mass, viscous laws; k–ε, Langevin
-//! geometry  flow  reduced  surfaces; velocity fields; separated representations
+//! geometry  flow  free_surface  reduced   closed surfaces; velocity fields; waves; separated representations
 //! math file fluid preset   scalars and lanes; sealed tables; density, viscosity; leaf-sized worlds
 //!       error              the one error type
 //! ```
