@@ -26,6 +26,7 @@
 //! | let bodies of a rapier world fly | [`Immersion`], [`HydroProperties`], [`Fluid`] |
 //! | do so where something else steps rapier | [`Immersion::before_step`], [`RapierSets`] |
 //! | choose how the fluid pushes back | [`ImmersedBody`], [`ViscousLaw`] |
+//! | know whether the default law is for a body | [`ImmersedBody::out_of_scope`], [`OutOfScope`], `docs/which-bodies.md` |
 //! | know what a shape's added mass is | [`HydroProperties::added_mass`], [`Accuracy`], [`boundary_element`] |
 //! | let the fluid move | [`flow`], [`turbulence`] |
 //! | see every force on a body | [`Immersion::forces`] |
@@ -100,8 +101,8 @@ pub use hydro::viscous::{
     Bounds, Coefficient, ForceFactors, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw,
 };
 pub use hydro::{
-    Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, HydroProperties, PartLaw,
-    PartMotion, Planform, PolarRow, PolarTable, StokesResistance,
+    Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, HydroProperties, OutOfScope,
+    PartLaw, PartMotion, Planform, PolarRow, PolarTable, StokesResistance,
 };
 pub use rapier3d;
 

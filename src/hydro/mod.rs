@@ -3,6 +3,7 @@
 mod accuracy;
 mod added_mass;
 mod bluff_shape;
+mod bluff_side;
 #[cfg(feature = "bake")]
 pub mod boundary_element;
 mod carlson;
@@ -13,6 +14,7 @@ mod file;
 pub(crate) mod part_law;
 mod planform;
 mod properties;
+mod scope;
 mod silhouette;
 mod strips;
 pub(crate) mod viscous;
@@ -24,4 +26,5 @@ pub use ellipsoid::StokesResistance;
 pub use part_law::{CustomLaw, Damping, DragBox, PartLaw, PartMotion, PolarRow, PolarTable};
 pub use planform::Planform;
 pub use properties::HydroProperties;
+pub use scope::OutOfScope;
 use silhouette::Silhouette;

@@ -1,6 +1,6 @@
 //! Strips of a plate across its longest axis, for wings and blades whose sections meet different flows.
 
-use super::{AddedMass, HydroProperties, Planform};
+use super::{AddedMass, HydroProperties, OutOfScope, Planform};
 use crate::error::Error;
 use crate::geometry::Surface;
 use rapier3d::na::{Vector2, Vector3};
@@ -152,6 +152,13 @@ fn strip(
         proxy: whole.proxy,
         bluff: None,
         parts: Vec::new(),
+        // Strips have chords of their own; what gaps remain is between them.
+        out_of_scope: whole
+            .out_of_scope
+            .iter()
+            .filter(|reason| !matches!(reason, OutOfScope::Gaps { .. }))
+            .copied()
+            .collect(),
     })
 }
 

@@ -1,4 +1,4 @@
-//! Bodies of thin parts far from each other, which a grid of lines may miss, and slivers.
+//! Bodies of thin parts far from each other, which lines a sixty-fourth of the width apart would miss, and slivers.
 
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::*;
@@ -76,6 +76,37 @@ fn thin_parts_far_from_each_other_are_described() {
             // 4 s in water: far below the 39 m/s of a free fall.
             let speed = world.bodies[body].linvel().length();
             assert!((0.1..10.0).contains(&speed), "{name} {thickness}: {speed}");
+        }
+    }
+}
+
+/// Two thin square plates that face each other from afar: their shadows, to rounding, whatever the gap; and the
+/// pressure of flat faces (0.90) with a wake behind them, between that of a round shadow (0.28) and that of an endless
+/// one (0.96), and with friction along the faces.
+#[test]
+fn plates_far_apart_are_seen() {
+    for (gap, thickness) in [(2.0, 0.01), (20.0, 0.005), (100.0, 0.001)] {
+        let ends = [-0.5, 0.5].map(|side: f32| {
+            let plate = SharedShape::cuboid(0.5 * thickness, 0.5, 0.5);
+            (Pose::translation(side * gap, 0.0, 0.0), plate)
+        });
+        let pair = SharedShape::compound(ends.to_vec());
+        let bluff = HydroProperties::from_shape(pair.as_ref())
+            .unwrap()
+            .bluff
+            .unwrap();
+        let t = f64::from(thickness);
+        let mut shadows: [f64; 3] = bluff.shadow.into();
+        shadows.sort_by(f64::total_cmp);
+        for (ours, exact) in shadows.iter().zip([2.0 * t, 2.0 * t, 1.0]) {
+            assert!((ours / exact - 1.0).abs() < 1e-3, "{gap}: {ours} {exact}");
+        }
+        for drag in bluff.drag {
+            for (drag, shadow) in drag.iter().zip(&bluff.shadow) {
+                let friction = 0.003 * (4.0 / shadow - 4.0).max(0.0);
+                let pressure = drag - friction;
+                assert!((0.88..1.9).contains(&pressure), "{gap}: {drag} {friction}");
+            }
         }
     }
 }
