@@ -40,7 +40,7 @@ pub(crate) fn bands(surface: &Surface, places: &[f64], count: usize) -> Vec<Band
     for ends in cuts.windows(2) {
         let length = ends[1] - ends[0];
         let by_length = 0.5 * count as f64 * length / (last - first);
-        let n = (even + by_length - 1e-6).ceil().max(1.0);
+        let n = (even + by_length).round().max(1.0);
         let width = length / n;
         bands.extend((0..n as usize).map(|i| Band {
             middle: ends[0] + (i as f64 + 0.5) * width,

@@ -157,7 +157,8 @@ impl Side {
 /// The lid over the hollows of a relief: the hull of its sections along rows and columns, at each cell.
 struct Lid {
     heights: Vec<f64>,
-    /// Height above the surface from which on the lid is a lid, m.
+    /// Height above the surface from which on the lid is a lid, m: more than the rounding of single precision. Sections
+    /// are exact, so that where the surface bulges out the hull lies on it.
     least: f64,
 }
 
@@ -171,7 +172,7 @@ impl Lid {
         }
         Self {
             heights,
-            least: 0.01 * relief.size(),
+            least: 1e-6 * relief.size(),
         }
     }
 

@@ -3,9 +3,10 @@
 use crate::geometry::Surface;
 use rapier3d::na::{Matrix6, Rotation3, Vector2, Vector3, Vector6};
 
-/// Share of the convex outline around a shadow below which the gaps in it matter. Paper crosses of five squares (0.71)
-/// fall a third too slowly; a maple leaf of five lobes (0.725) is still a leaf.
-const GAPS: f64 = 0.72;
+/// Share of the convex outline around a shadow below which the gaps in it matter, of a plate and of another body. Paper
+/// crosses of five squares (0.71) fall a third too slowly; a maple leaf of five lobes (0.725) is still a leaf. Of other
+/// bodies no chord or span is asked, and a neck is no gap: a rod with a ball at its end has 0.67.
+const GAPS: (f64, f64) = (0.72, 0.5);
 /// Rise of a plate's middle surface, over its width or length, from which on it matters. By thin-airfoil theory a plate
 /// bent to a parabola of rise f over its chord c lifts at no incidence as a flat one at 2 f/c does: here at 7°, half
 /// of the angle at which a wing stalls. Leaves have less.
@@ -91,7 +92,7 @@ impl OutOfScope {
         if !convex {
             let fill = |axis: usize| shadows[axis] / area_of_hull(corners.iter().flatten(), axis);
             let fill = seen_along.clone().map(fill).fold(f64::INFINITY, f64::min);
-            if fill < GAPS {
+            if fill < if plate { GAPS.0 } else { GAPS.1 } {
                 found.push(Self::Gaps { fill });
             }
         }
