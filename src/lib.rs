@@ -26,6 +26,7 @@
 //! | let bodies of a rapier world fly | [`Immersion`], [`HydroProperties`], [`Fluid`] |
 //! | do so where something else steps rapier | [`Immersion::before_step`], [`RapierSets`] |
 //! | choose how the fluid pushes back | [`ImmersedBody`], [`ViscousLaw`] |
+//! | know whether the default law is for a body | [`ImmersedBody::out_of_scope`], [`OutOfScope`], `docs/which-bodies.md` |
 //! | know what a shape's added mass is | [`HydroProperties::added_mass`], [`Accuracy`], [`boundary_element`] |
 //! | let the fluid move | [`flow`], [`turbulence`] |
 //! | let bodies float, give water a surface with waves | [`Medium`], [`free_surface`], [`Immersion::hydrostatics`] |
@@ -103,8 +104,9 @@ pub use hydro::viscous::{
     Bounds, Coefficient, ForceFactors, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw,
 };
 pub use hydro::{
-    Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, Hull, HydroProperties, PartLaw,
-    PartMotion, Planform, PolarRow, PolarTable, StokesResistance, Submerged, Waterplane,
+    Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, Hull, HydroProperties,
+    OutOfScope, PartLaw, PartMotion, Planform, PolarRow, PolarTable, StokesResistance, Submerged,
+    Waterplane,
 };
 pub use medium::{Layer, Medium};
 pub use rapier3d;

@@ -15,9 +15,9 @@ pub const NOMINAL: f32 = 1.2;
 /// across (Knacke, *Parachute Recovery Systems*, 1992; recalled); the depth leaves the gores their length.
 pub const RADIUS: f32 = 0.35;
 const DEPTH: f32 = 0.285;
-/// Thickness that stands for the cloth, m: what the drag is read off on a grid of 64 lines a side has to hit the rim. Mass of the
+/// Thickness that stands for the cloth, m. Mass of the
 /// canopy and of the load, kg; length of the lines, m.
-const CLOTH: f32 = 0.018;
+const CLOTH: f32 = 0.002;
 const CANOPY: f32 = 0.05;
 pub const LOAD: f32 = 1.0;
 const LINES: f32 = 1.2;

@@ -2,6 +2,7 @@
 
 mod bent;
 mod division;
+pub(crate) mod far_part;
 pub(crate) mod from_rapier;
 mod part;
 mod piece;
@@ -13,8 +14,8 @@ pub use thruster::{Propeller, Thruster};
 
 use crate::error::Error;
 use crate::geometry::Surface;
-use crate::hydro::HydroProperties;
 use crate::hydro::viscous::ViscousLaw;
+use crate::hydro::{HydroProperties, OutOfScope, PartLaw};
 use rapier3d::na::{Matrix3, Vector3};
 use rapier3d::parry::shape::Shape;
 use std::sync::Arc;
@@ -74,6 +75,48 @@ impl ImmersedBody {
         self.law.check()?;
         self.parts.iter().try_for_each(Part::check)?;
         self.thrusters.iter().try_for_each(Thruster::check)
+    }
+
+    /// What the default law does not see of the body, of the whole or of each of its parts that is under that law:
+    /// empty where it is as good as `docs/which-bodies.md` says. [`Immersion::insert`](crate::Immersion::insert)
+    /// makes a [`Warning`](crate::Warning) of it.
+    ///
+    /// ```
+    /// use rapier3d_immersed::rapier3d::prelude::*;
+    /// use rapier3d_immersed::{HydroProperties, ImmersedBody, OutOfScope};
+    ///
+    /// let bar = SharedShape::cuboid(0.03, 0.001, 0.005);
+    /// let across = Pose::from_rotation(Rotation::from_rotation_y(std::f32::consts::FRAC_PI_2));
+    /// let cross = SharedShape::compound(vec![(Pose::IDENTITY, bar.clone()), (across, bar.clone())]);
+    /// let cross = ImmersedBody::new(HydroProperties::from_shape(cross.as_ref())?);
+    /// assert!(matches!(cross.out_of_scope()[..], [OutOfScope::Gaps { .. }]));
+    /// assert!(ImmersedBody::new(HydroProperties::from_shape(bar.as_ref())?).out_of_scope().is_empty());
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    pub fn out_of_scope(&self) -> Vec<OutOfScope> {
+        let is_default = |law: &ViscousLaw| matches!(law, ViscousLaw::Physical(_));
+        let mut found: Vec<OutOfScope> = Vec::new();
+        let mut add = |hydro: &HydroProperties| {
+            for reason in &hydro.out_of_scope {
+                if !found.contains(reason) {
+                    found.push(*reason);
+                }
+            }
+        };
+        if self.parts.is_empty() && is_default(&self.law) {
+            add(&self.hydro);
+        }
+        for part in &self.parts {
+            let default = match &part.law {
+                None => is_default(&self.law),
+                Some(PartLaw::Viscous(law)) => is_default(law),
+                Some(_) => false,
+            };
+            if default {
+                add(&part.hydro);
+            }
+        }
+        found
     }
 
     /// The same body under another law.

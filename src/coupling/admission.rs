@@ -8,6 +8,7 @@ use super::registry::{Registry, SWEEP};
 use super::saved_properties::{Difference, SavedProperties, is_immersed};
 use super::shared_constants::{ConstantsTable, in_layer};
 use super::warning::{Warning, Warnings};
+use crate::body::far_part::FarPart;
 use crate::body::from_rapier::CoreMass;
 use crate::error::Error;
 use crate::math::to_real;
@@ -246,6 +247,7 @@ impl Admission<'_> {
             return Ok(());
         };
         let (dry, description) = (saved.dry, state.description);
+        let far_part = FarPart::of_body(handle, sets.bodies, sets.colliders, body);
         let last = self
             .last
             .and_then(|(last, _)| self.registry.states()[last].as_ref());
@@ -294,6 +296,16 @@ impl Admission<'_> {
                 body: handle,
                 rapier_mass: mass.rapier,
                 whole_mass: mass.whole,
+            });
+        }
+        if let Some(far) = far_part
+            && !std::mem::replace(&mut state.warned.far_part, true)
+        {
+            self.warnings.push(Warning::FarPart {
+                body: handle,
+                part: far.part,
+                distance: far.distance,
+                size: far.size,
             });
         }
         let known_error = dry_error.filter(|error| *error > REPORTED_ERROR);

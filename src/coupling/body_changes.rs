@@ -114,6 +114,7 @@ impl Admission<'_> {
                 law: known.law,
                 ..ImmersedBody::new(hydro)
             };
+            self.warnings.push_scope(handle, &body, self.registry);
             let description = self.registry.describe(body);
             self.registry.redescribe(index, description);
         } else if !warned {

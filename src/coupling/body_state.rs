@@ -92,6 +92,7 @@ pub(super) struct Warned {
     pub change_ignored: bool,
     pub inertia: bool,
     pub core_mass: bool,
+    pub far_part: bool,
     pub flow: bool,
 }
 

@@ -134,7 +134,8 @@ impl Immersion {
     /// `body` is [`HydroProperties`](crate::HydroProperties) (under the default law) or an
     /// [`ImmersedBody`]. A handle that is stale or becomes stale is no error; a body that is already
     /// immersed gets the new description and goes on with the velocities that it has. What cannot be immersed (without mass, say) is left to
-    /// plain rapier and reported in [`Immersion::warnings`].
+    /// plain rapier and reported in [`Immersion::warnings`], as is what the default law does not see of a shape
+    /// ([`ImmersedBody::out_of_scope`]).
     pub fn insert(&mut self, handle: RigidBodyHandle, body: impl Into<ImmersedBody>) {
         self.insert_all([handle], body);
     }
@@ -164,7 +165,12 @@ impl Immersion {
         handles: impl IntoIterator<Item = RigidBodyHandle>,
         body: impl Into<ImmersedBody>,
     ) {
-        let description = self.registry.describe(body.into());
+        let body = body.into();
+        let mut handles = handles.into_iter().peekable();
+        if let Some(first) = handles.peek() {
+            self.warnings.push_scope(*first, &body, &self.registry);
+        }
+        let description = self.registry.describe(body);
         for handle in handles {
             self.registry.insert(handle, description);
             if let Some(index) = self.registry.index(handle) {

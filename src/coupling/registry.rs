@@ -6,7 +6,7 @@ use super::equipment::Equipment;
 use crate::body::ImmersedBody;
 #[cfg(feature = "serde-serialize")]
 use crate::error::Error;
-use crate::interning::Interned;
+use crate::interning::{Content, Interned};
 use rapier3d::dynamics::RigidBodyHandle;
 
 /// Sleeping and stale bodies are looked at once in this many steps.
@@ -105,6 +105,14 @@ impl Registry {
         let states = self.bodies.iter().flatten();
         self.descriptions
             .intern(body, || states.map(|state| state.description))
+    }
+
+    /// Whether an equal description is known.
+    pub fn knows(&self, body: &ImmersedBody) -> bool {
+        let hash = body.content_hash();
+        self.descriptions
+            .find(hash, |known| known == body)
+            .is_some()
     }
 
     /// The description of a body.

@@ -1,5 +1,8 @@
 //! What a step cannot refuse to do but a user should know.
 
+use super::registry::Registry;
+use crate::body::ImmersedBody;
+use crate::hydro::OutOfScope;
 use rapier3d::dynamics::RigidBodyHandle;
 
 /// Something that a user should know about a body. Collected by the step, which cannot fail.
@@ -58,6 +61,26 @@ pub enum Warning {
         /// The body.
         body: RigidBodyHandle,
     },
+    /// The default law does not see all of the shape that the body is described by. Said once of equal descriptions,
+    /// when the first body enters under one; it is in the fluid all the same.
+    OutOfScope {
+        /// The first body of this description.
+        body: RigidBodyHandle,
+        /// What is not seen, and how much.
+        reason: OutOfScope,
+    },
+    /// A part is so far from the body's colliders that its place is likely to be a mistake: of units, or one in the
+    /// world's frame. It is moved with the body all the same.
+    FarPart {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Index of the part.
+        part: usize,
+        /// From the colliders' box to the part's center, m.
+        distance: f64,
+        /// Diagonal of the colliders' box and the part's length together, m.
+        size: f64,
+    },
     /// The body is in the fluid of another [`Immersion`](crate::Immersion), or was in one that was dropped
     /// without giving it back ([`Immersion::remove`](crate::Immersion::remove)): its mass properties are not
     /// its own. This immersion leaves it alone until the other one has given it back.
@@ -110,6 +133,22 @@ impl std::fmt::Display for Warning {
             Self::ShapeKept { body } => write!(
                 f,
                 "the shape of {body:?} has changed, but its description is the user's own and is kept"
+            ),
+            Self::OutOfScope { body, reason } => {
+                write!(
+                    f,
+                    "{body:?} is not one of the default law's bodies: {reason}"
+                )
+            }
+            Self::FarPart {
+                body,
+                part,
+                distance,
+                size,
+            } => write!(
+                f,
+                "part {part} of {body:?} is {distance:.3} m from its colliders, which with the part are \
+                 {size:.3} m long: is its pose in the body's frame, in m?"
             ),
             Self::ChangeIgnored { body } => {
                 write!(
@@ -173,6 +212,21 @@ impl Warnings {
     pub fn push(&mut self, warning: Warning) {
         log::warn!("{warning}");
         self.list.push(warning);
+    }
+
+    /// Keeps what the default law does not see of a description that is new: `body` is the first under it.
+    pub fn push_scope(
+        &mut self,
+        body: RigidBodyHandle,
+        description: &ImmersedBody,
+        known: &Registry,
+    ) {
+        let reasons = description.out_of_scope();
+        if !reasons.is_empty() && !known.knows(description) {
+            for reason in reasons {
+                self.push(Warning::OutOfScope { body, reason });
+            }
+        }
     }
 
     /// Keeps a warning that concerns the whole set, unless it is there already.

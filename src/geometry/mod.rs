@@ -5,6 +5,7 @@
 //! [`DryMass::uniform`](crate::DryMass::uniform) take it from there. A [`Sheet`] is a mesh without thickness,
 //! for the boundary elements (feature `bake`); an [`Ellipsoid`] stands in for any shape.
 
+pub(crate) mod bands;
 #[cfg_attr(not(feature = "bake"), allow(dead_code))]
 pub(crate) mod bisect;
 mod ellipsoid;
@@ -21,7 +22,7 @@ mod voxels;
 
 pub use ellipsoid::Ellipsoid;
 pub(crate) use quality::check_indices;
-pub(crate) use relief::{Relief, Seen};
+pub(crate) use relief::Relief;
 pub use sheet::Sheet;
 pub use surface::{Surface, VolumeIntegrals};
 pub(crate) use tessellate::rounded_volume;

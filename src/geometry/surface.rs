@@ -5,9 +5,6 @@ use rapier3d::na::{Matrix3, Vector3};
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// Pairs of vertices and faces that are compared to find out whether a body is convex.
-const MOST_COMPARED: usize = 400_000;
-
 /// A closed triangle mesh whose normals point out of the body, into the fluid. It is in f64, because
 /// everything the fluid feels of a shape is computed from it once.
 ///
@@ -208,20 +205,68 @@ impl Surface {
             .sum()
     }
 
-    /// Whether the surface is seen to bound one convex body: `false` also where finding out would take long.
-    pub(crate) fn is_seen_convex(&self) -> bool {
+    /// Whether the surface bounds one convex body: it is a sphere by its connections (Euler's formula), bends nowhere
+    /// inward at an edge, and its angles at no corner add up to more than a whole turn. Such a surface is convex
+    /// (Hadamard's theorem, for polyhedra).
+    pub(crate) fn is_convex(&self) -> bool {
         let (vertices, triangles) = (self.vertices.len(), self.triangles.len());
-        // Euler's formula holds for one body; two that lie in the same place have no face between them either.
-        if vertices * triangles > MOST_COMPARED || vertices != triangles / 2 + 2 {
+        if vertices != triangles / 2 + 2 {
             return false;
         }
+        let mut edges = Vec::with_capacity(3 * triangles);
+        let mut turns = vec![0.0; vertices];
+        for [a, b, c] in &self.triangles {
+            for [i, j, k] in [[*a, *b, *c], [*b, *c, *a], [*c, *a, *b]] {
+                edges.push((i.min(j), i.max(j), i < j, k));
+                let [at, to, from] = [i, j, k].map(|i| self.vertices[i as usize]);
+                turns[i as usize] += (to - at).angle(&(from - at));
+            }
+        }
+        edges.sort_unstable();
         let rounding = 1e-9 * self.size();
-        self.corners().all(|[a, b, c]| {
+        let bends_out = |pair: &[(u32, u32, bool, u32)]| {
+            let [(i, j, true, k), (i2, j2, false, l)] = [pair[1], pair[0]] else {
+                return false;
+            };
+            let [a, b, c, d] = [i, j, k, l].map(|i| self.vertices[i as usize]);
             let normal = (b - a).cross(&(c - a));
-            let highest = rounding * normal.norm();
-            let below = |v: &Vector3<f64>| (v - a).dot(&normal) <= highest;
-            self.vertices.iter().all(below)
-        })
+            (i, j) == (i2, j2) && (d - a).dot(&normal) <= rounding * normal.norm()
+        };
+        let whole = std::f64::consts::TAU * (1.0 + 1e-9);
+        edges
+            .chunks(2)
+            .all(|pair| pair.len() == 2 && bends_out(pair))
+            && turns.iter().all(|turn| *turn <= whole)
+            && self.is_connected()
+    }
+
+    /// Whether all triangles hang together.
+    fn is_connected(&self) -> bool {
+        let mut bodies = self.bodies();
+        bodies.dedup();
+        bodies.len() == 1
+    }
+
+    /// Of each vertex the first of the body that it belongs to: triangles that share a vertex are one body.
+    pub(crate) fn bodies(&self) -> Vec<u32> {
+        fn root(before: &mut [u32], mut i: u32) -> u32 {
+            while before[i as usize] != i {
+                before[i as usize] = before[before[i as usize] as usize];
+                i = before[i as usize];
+            }
+            i
+        }
+        // Each points at one of its own body that is not after it, the first of a body at itself.
+        let mut before: Vec<u32> = (0..self.vertices.len() as u32).collect();
+        for [a, b, c] in &self.triangles {
+            for (i, j) in [(*a, *b), (*b, *c)] {
+                let (i, j) = (root(&mut before, i), root(&mut before, j));
+                before[i.max(j) as usize] = i.min(j);
+            }
+        }
+        (0..before.len() as u32)
+            .map(|i| root(&mut before, i))
+            .collect()
     }
 
     /// Each edge must be used once in each direction.
@@ -298,19 +343,41 @@ mod tests {
         (v, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
     }
 
+    /// A ball of thousands of facets is convex, and a coin, whose faces are flat; a ball with a dent is not.
+    #[test]
+    fn many_facets_are_judged_too() {
+        use rapier3d::parry::shape::{Ball, Cylinder};
+        let ball = Surface::from_shape(&Ball::new(0.3)).unwrap();
+        assert!(ball.triangles().len() > 1000 && ball.is_convex());
+        assert!(
+            Surface::from_shape(&Cylinder::new(0.01, 0.5))
+                .unwrap()
+                .is_convex()
+        );
+        // One vertex of the ball pulled in by a hundredth of its radius.
+        let dented = ball.map(|v| {
+            if v == ball.vertices()[77] {
+                v * 0.99
+            } else {
+                v
+            }
+        });
+        assert!(!dented.is_convex());
+    }
+
     /// A tetrahedron is convex; with a vertex pushed in through the face before it, or put together from two, it is not.
     #[test]
     fn convex_bodies_are_known() {
         let (v, t) = tetrahedron();
         let one = Surface::new(&v, &t).unwrap();
-        assert!(one.is_seen_convex());
+        assert!(one.is_convex());
         let mut twice = one.clone();
         twice.append(&one);
-        assert!(!twice.is_seen_convex());
+        assert!(!twice.is_convex());
         let beside = one.map(|v| v + Vector3::x() * 3.0);
         let mut apart = one.clone();
         apart.append(&beside);
-        assert!(!apart.is_seen_convex());
+        assert!(!apart.is_convex());
         // The far face has a vertex in its middle, at the height of a dent or of a cap.
         for (height, convex) in [(-0.1, false), (0.1, true)] {
             let mut vertices = v.clone();
@@ -324,7 +391,7 @@ mod tests {
                 [3, 1, 4],
             ];
             let surface = Surface::new(&vertices, &triangles).unwrap();
-            assert_eq!(surface.is_seen_convex(), convex, "{height}");
+            assert_eq!(surface.is_convex(), convex, "{height}");
         }
     }
 

@@ -4,13 +4,11 @@
 //! asks what kind of shape it is. What is inside does not count, so that a solid may be one part or be put
 //! together from many that touch or overlap.
 
+use super::bluff_side::Side;
 use crate::error::Error;
-use crate::geometry::{Ellipsoid, Relief, Seen, Surface};
+use crate::geometry::{Ellipsoid, Relief, Surface};
 use rapier3d::na::{Rotation3, Vector2, Vector3};
 
-/// Depth of hollows, over the outline's minor width, beyond which more of it changes nothing: a hemispherical cup
-/// has a third.
-const DEEPEST: f64 = 0.5;
 /// Relative error of a relief's shadow from which on its lines are too few for the body, and the drag coefficient
 /// of such a body: one of thin parts far from each other.
 const UNRESOLVED: (f64, f64) = (0.25, 1.0);
@@ -18,22 +16,6 @@ const UNRESOLVED: (f64, f64) = (0.25, 1.0);
 const FRICTION: f64 = 0.003;
 /// A sphere's wetted surface over its shadow: the friction of so much is in the other terms.
 const SPHERES: f64 = 4.0;
-/// Windward pressure: of the mean of s², and of that at the outline.
-const FRONT: (f64, f64) = (0.32, 0.58);
-/// Pressure in hollows, per mean depth over the outline's minor width.
-const HOLLOW: f64 = 0.75;
-/// Suction of the wake behind a round shadow, and what an endless one has more.
-const WAKE: (f64, f64) = (0.28, 0.68);
-/// Ratio of the outline's radii of gyration, less one, at which half of that has come.
-const HALF_LONG: f64 = 11.0;
-/// Length over width at which half of the wake is attached again behind a sharp edge.
-const REATTACHED: f64 = 1.3;
-/// ⟨s²⟩ of a lee side below which it closes so gently that the wake is weaker, and the power with which it is.
-const CLOSING: (f64, f64) = (0.5, 0.65);
-/// Up to this s² at the outline a shoulder is round, and beyond `.1` more than it is sharp: a round one has no
-/// more than the facets and the lines between which it lies leave.
-const ROUND: (f64, f64) = (0.05, 0.3);
-
 /// What the law of bluff bodies knows of one. The axes are those of the planform; of two entries the first is
 /// for motion along, the second for motion against an axis.
 ///
@@ -58,8 +40,6 @@ const ROUND: (f64, f64) = (0.05, 0.3);
 /// * a lee side that closes more gently than a sphere's has a smaller wake, B = min(1, 2⟨s²⟩)^0.65, with its
 ///   own ⟨s²⟩;
 /// * S/A is the wetted surface over the shadow, 4 for a sphere: friction where there is more of it.
-///
-/// Thin parts far from each other, which the lines of the relief miss, have C_D = 1 on their shadow.
 ///
 /// The numbers were fitted to some published bodies and tested on others: `tests/validation/bluff/table.rs`
 /// has both, `docs/bluff-bodies.md` shows them.
@@ -110,12 +90,9 @@ impl BluffShape {
         let mut wetted = 0.0;
         for (axis, slopes) in slopes.iter_mut().enumerate() {
             let frame = axes * frame_along(axis);
-            let along = Relief::new(surface, center, &frame);
+            let along = Relief::new(surface, center, &frame, convex);
             let against = along.turned();
-            let sides = [
-                Side::new(&along, &against, convex),
-                Side::new(&against, &along, convex),
-            ];
+            let sides = [Side::new(&along, &against), Side::new(&against, &along)];
             let off = (sides[0].area / shadow[axis] - 1.0).abs();
             if off.is_nan() || off > UNRESOLVED.0 {
                 shape.drag[0][axis] = UNRESOLVED.1;
@@ -238,239 +215,4 @@ pub(super) const SPHERE: f64 = 0.45;
 fn frame_along(axis: usize) -> Rotation3<f64> {
     let unit = |i: usize| Vector3::ith(i % 3, 1.0);
     Rotation3::from_basis_unchecked(&[unit(axis + 1), unit(axis + 2), unit(axis)])
-}
-
-/// What one side of a body is like to a fluid that comes from there.
-struct Side {
-    /// Shadow, m².
-    area: f64,
-    /// ⟨s²⟩ over it, and along its outline.
-    pressure: f64,
-    edge: f64,
-    /// Mean depth of hollows, mean length of the body behind, over the outline's minor width.
-    hollow: f64,
-    length: f64,
-    /// Ratio of the outline's radii of gyration.
-    slenderness: f64,
-    /// Centroid of the shadow, and where the windward pressure acts, along the grid's axes, m.
-    middle: Vector2<f64>,
-    pressure_point: Vector2<f64>,
-    /// Moment and force across per angle of the motion toward the first and the second axis, over the dynamic
-    /// pressure, m³ and m².
-    moment_slope: Vector2<f64>,
-    force_slope: Vector2<f64>,
-    /// Outer surface that faces this side most, m².
-    wetted: f64,
-    /// About the grid's axes and the axis of the lines: shares of the surface that faces this side most.
-    turning: [[f64; 3]; 3],
-}
-
-impl Side {
-    /// `turned` is the relief from the other side.
-    fn new(relief: &Relief, turned: &Relief, convex: bool) -> Self {
-        let n = Relief::lines();
-        let lid = Lid::new(relief, convex);
-        let back = Lid::new(turned, convex);
-        let [du, dv] = relief.step();
-        let cell = du * dv;
-        let (mut area, mut pressure, mut depth, mut length) = (0.0, 0.0, 0.0, 0.0);
-        let (mut edge, mut outline) = (0.0, 0.0);
-        let mut middle = Vector2::zeros();
-        let mut acting = Vector2::zeros();
-        let (mut slope, mut force_slope) = (Vector2::zeros(), Vector2::zeros());
-        let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
-        let mut turning = [[0.0; 3]; 3];
-        let mut wetted = 0.0;
-        for (row, column) in (0..n).flat_map(|row| (0..n).map(move |column| (row, column))) {
-            let Some(seen) = relief.above(column, row) else {
-                continue;
-            };
-            let [x, y] = relief.place(column, row);
-            let (height, normal) = lid.at(column, row, &seen);
-            let s2 = normal.z * normal.z;
-            area += cell;
-            pressure += s2 * cell;
-            depth += (height - seen.height) * cell;
-            length += (height + back.height(n - 1 - column, row)).max(0.0) * cell;
-            middle += Vector2::new(x, y) * cell;
-            (xx, yy, xy) = (xx + x * x * cell, yy + y * y * cell, xy + x * y * cell);
-            let missing = |du: isize, dv: isize| {
-                let at = (column as isize + du, row as isize + dv);
-                let inside = |i: isize| (0..n as isize).contains(&i);
-                let there = inside(at.0) && inside(at.1);
-                !(there && relief.above(at.0 as usize, at.1 as usize).is_some())
-            };
-            let ends = |a: bool, b: bool| f64::from(u8::from(a) + u8::from(b));
-            let rim =
-                ends(missing(-1, 0), missing(1, 0)) * dv + ends(missing(0, -1), missing(0, 1)) * du;
-            edge += s2 * rim;
-            outline += rim;
-            // The pressure −s² n/n_z per shadow, and its moment about the center.
-            let force = normal * (-normal.z);
-            let r = Vector3::new(x, y, height);
-            let moment = r.cross(&force);
-            acting += Vector2::new(moment.y, -moment.x) * cell;
-            // Moving toward the first axis as well changes it by 2 s n_x.
-            let arm = r.cross(&normal);
-            slope += Vector2::new(normal.x * arm.y, -normal.y * arm.x) * (2.0 * cell);
-            force_slope += normal.xy().component_mul(&normal.xy()) * (2.0 * cell);
-            // The surface itself, each piece of it from the side to which it turns most.
-            let out = &seen.normal;
-            let most = out.z * (1.0 + 1e-9);
-            if out.x.abs() <= most && out.y.abs() <= most {
-                // One that turns to two sides or three alike is met from each.
-                let alike = [out.x, out.y].map(|x| u8::from(x.abs() * (1.0 + 1e-9) >= out.z));
-                let r = Vector3::new(x, y, seen.height);
-                let arm = r.cross(out);
-                let surface = cell / (out.z * f64::from(1 + alike[0] + alike[1]));
-                wetted += surface;
-                for (i, turning) in turning.iter_mut().enumerate() {
-                    let lever = arm[i].abs();
-                    turning[0] += 0.5 * lever * lever * surface;
-                    turning[1] += 0.5 * lever.powi(3) * surface;
-                    turning[2] += (r.norm_squared() - r[i] * r[i]) * surface;
-                }
-            }
-        }
-        let per = 1.0 / area.max(1e-300);
-        let middle = middle * per;
-        let (xx, yy) = (
-            xx * per - middle.x * middle.x,
-            yy * per - middle.y * middle.y,
-        );
-        let xy = xy * per - middle.x * middle.y;
-        let (mean, spread) = (0.5 * (xx + yy), (0.25 * (xx - yy).powi(2) + xy * xy).sqrt());
-        let slenderness = ((mean + spread) / (mean - spread).max(1e-12 * mean)).sqrt();
-        let width = 2.0 * (area / (std::f64::consts::PI * slenderness)).sqrt();
-        Self {
-            area,
-            pressure: pressure * per,
-            edge: edge / outline.max(1e-300),
-            hollow: (depth * per / width).min(DEEPEST),
-            length: length * per / width,
-            slenderness,
-            middle,
-            pressure_point: acting / pressure.max(1e-300),
-            moment_slope: slope,
-            force_slope,
-            wetted,
-            turning,
-        }
-    }
-
-    /// The windward pressure's share of the drag coefficient.
-    fn front(&self) -> f64 {
-        FRONT.0 * self.pressure + FRONT.1 * self.edge + HOLLOW * self.hollow
-    }
-
-    /// Drag coefficient of this side in front, `lee` behind.
-    fn drag(&self, lee: &Self) -> f64 {
-        let more = self.slenderness - 1.0;
-        let wake = WAKE.0 + WAKE.1 * more / (more + HALF_LONG);
-        let long = (self.length / REATTACHED).powi(4);
-        let attached = self.edge * long / (long + 1.0);
-        let closing = (lee.pressure / CLOSING.0).min(1.0).powf(CLOSING.1);
-        self.front() + wake * (1.0 - attached) * closing
-    }
-
-    fn roundness(&self) -> f64 {
-        (1.0 - (self.edge - ROUND.0) / ROUND.1).clamp(0.0, 1.0)
-    }
-}
-
-/// The lid over the hollows of a relief: the hull of its heights along its rows and columns.
-struct Lid {
-    heights: Vec<f64>,
-    size: f64,
-    step: [f64; 2],
-}
-
-impl Lid {
-    fn new(relief: &Relief, convex: bool) -> Self {
-        let n = Relief::lines();
-        let height = |i: usize| relief.above(i % n, i / n).map(|seen| seen.height);
-        let on_surface = |i: usize| height(i).unwrap_or(f64::NEG_INFINITY);
-        let mut heights: Vec<f64> = (0..n * n).map(on_surface).collect();
-        let [du, dv] = relief.step();
-        let mut line = Vec::with_capacity(n);
-        for i in 0..if convex { 0 } else { n } {
-            for along_row in [true, false] {
-                let index = |k: usize| if along_row { (k, i) } else { (i, k) };
-                line.clear();
-                line.extend((0..n).filter_map(|k| {
-                    let (column, row) = index(k);
-                    relief.above(column, row).map(|seen| (k, seen.height))
-                }));
-                for (k, height) in hull(&line) {
-                    let (column, row) = index(k);
-                    let place = &mut heights[row * n + column];
-                    *place = place.max(height);
-                }
-            }
-        }
-        Self {
-            heights,
-            size: (du + dv) * n as f64,
-            step: [du, dv],
-        }
-    }
-
-    fn height(&self, column: usize, row: usize) -> f64 {
-        self.heights[row * Relief::lines() + column]
-    }
-
-    /// Height and normal of the lid, which are the surface's own where it lies on it.
-    fn at(&self, column: usize, row: usize, seen: &Seen) -> (f64, Vector3<f64>) {
-        let height = self.height(column, row);
-        if height - seen.height < 0.01 * self.size {
-            return (seen.height, seen.normal);
-        }
-        let n = Relief::lines();
-        let slope = |low: Option<f64>, high: Option<f64>, step: f64| {
-            let known = |h: Option<f64>| h.filter(|h| h.is_finite());
-            match (known(low), known(high)) {
-                (Some(low), Some(high)) => (high - low) / (2.0 * step),
-                (Some(low), None) => (height - low) / step,
-                (None, Some(high)) => (high - height) / step,
-                (None, None) => 0.0,
-            }
-        };
-        let left = (column > 0).then(|| self.height(column - 1, row));
-        let right = (column + 1 < n).then(|| self.height(column + 1, row));
-        let down = (row > 0).then(|| self.height(column, row - 1));
-        let up = (row + 1 < n).then(|| self.height(column, row + 1));
-        let x = slope(left, right, self.step[0]);
-        let y = slope(down, up, self.step[1]);
-        (height, Vector3::new(-x, -y, 1.0).normalize())
-    }
-}
-
-/// The upper hull of heights at rising places, at those places.
-fn hull(line: &[(usize, f64)]) -> Vec<(usize, f64)> {
-    let mut corners: Vec<(usize, f64)> = Vec::with_capacity(line.len());
-    for &(k, height) in line {
-        while let [.., (k0, h0), (k1, h1)] = corners[..] {
-            let (a, b) = ((k1 - k0) as f64, (k - k0) as f64);
-            if (h1 - h0) * b <= (height - h0) * a {
-                corners.pop();
-            } else {
-                break;
-            }
-        }
-        corners.push((k, height));
-    }
-    let mut next = 0;
-    line.iter()
-        .map(|&(k, height)| {
-            while next + 1 < corners.len() && corners[next + 1].0 <= k {
-                next += 1;
-            }
-            let (k0, h0) = corners[next];
-            let Some(&(k1, h1)) = corners.get(next + 1) else {
-                return (k, h0.max(height));
-            };
-            let share = (k - k0) as f64 / (k1 - k0) as f64;
-            (k, (h0 + (h1 - h0) * share).max(height))
-        })
-        .collect()
 }

@@ -3,6 +3,7 @@
 mod accuracy;
 mod added_mass;
 mod bluff_shape;
+mod bluff_side;
 #[cfg(feature = "bake")]
 pub mod boundary_element;
 mod carlson;
@@ -14,6 +15,7 @@ mod hull;
 pub(crate) mod part_law;
 mod planform;
 mod properties;
+mod scope;
 mod silhouette;
 mod strips;
 pub(crate) mod viscous;
@@ -26,4 +28,5 @@ pub use hull::{Hull, Submerged, Waterplane};
 pub use part_law::{CustomLaw, Damping, DragBox, PartLaw, PartMotion, PolarRow, PolarTable};
 pub use planform::Planform;
 pub use properties::HydroProperties;
+pub use scope::OutOfScope;
 use silhouette::Silhouette;

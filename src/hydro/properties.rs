@@ -1,6 +1,6 @@
 //! Everything the fluid feels of a shape, computed once.
 
-use super::{AddedMass, BluffShape, Hull, Planform, Silhouette};
+use super::{AddedMass, BluffShape, Hull, OutOfScope, Planform, Silhouette};
 use crate::error::Error;
 use crate::geometry::{Ellipsoid, Surface, VolumeIntegrals};
 use rapier3d::na::{Matrix3, Rotation3, Vector3};
@@ -53,6 +53,9 @@ pub struct HydroProperties {
     /// The surfaces that the shape consists of, if it is more than one to the fluid: in the same frame, and
     /// without parts of their own.
     pub parts: Vec<HydroProperties>,
+    /// What the default law does not see of the shape; [`ImmersedBody::out_of_scope`](crate::ImmersedBody::out_of_scope)
+    /// says what of it matters to a body.
+    pub out_of_scope: Vec<OutOfScope>,
 }
 
 impl HydroProperties {
@@ -146,7 +149,7 @@ impl HydroProperties {
         shadows = shadows.inf(&boxed);
         // Where parts touch or overlap, or a surface is folded, lines cross it more than twice: what no fluid
         // reaches counts once.
-        let convex = surface.is_seen_convex();
+        let convex = surface.is_convex();
         if !convex {
             let around = Silhouette::around(surface, integrals.centroid, &axes);
             for (shadow, silhouette) in shadows.iter_mut().zip(&around) {
@@ -161,6 +164,9 @@ impl HydroProperties {
         let proxy = rounded(ellipsoid_with_shadows(shadows, order));
         let bluff = (proxy.semi_axes.z > THIN * proxy.semi_axes.y)
             .then(|| BluffShape::new(surface, integrals.centroid, &axes, shadows, convex));
+        let plate = bluff.is_none();
+        let out_of_scope =
+            OutOfScope::of(surface, integrals.centroid, &axes, &shadows, plate, convex);
         let added_mass = proxy
             .added_mass()
             .rotated(&axes)
@@ -175,6 +181,7 @@ impl HydroProperties {
             bluff,
             hull,
             parts: Vec::new(),
+            out_of_scope,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Strips of a plate side by side along its span, for wings and blades whose sections meet different flows.
 
-use super::{AddedMass, Hull, HydroProperties, Planform};
+use super::{AddedMass, Hull, HydroProperties, OutOfScope, Planform};
 use crate::error::Error;
 use crate::geometry::Surface;
 use rapier3d::na::{Rotation3, Vector2, Vector3};
@@ -241,6 +241,13 @@ fn strip(
         bluff: None,
         hull,
         parts: Vec::new(),
+        // Strips have chords of their own; what gaps remain is between them.
+        out_of_scope: whole
+            .out_of_scope
+            .iter()
+            .filter(|reason| !matches!(reason, OutOfScope::Gaps { .. }))
+            .copied()
+            .collect(),
     })
 }
 

@@ -1,6 +1,6 @@
 //! The paper airplane weighs what its paper weighs, and its stored added mass is that of its sheet.
 
-use crate::support::airplane::{SIDE, THICKNESS, kind, stored_added_mass};
+use crate::support::airplane::{SIDE, THICKNESS, flying, kind, stored_added_mass};
 use approx::assert_relative_eq;
 use rapier3d_immersed::geometry::Sheet;
 
@@ -28,6 +28,13 @@ fn mass_of_the_folded_sheet() {
     let inertia = second.trace() * rapier3d_immersed::rapier3d::na::Matrix3::identity() - second;
     // The paper's own thickness adds t²/12 per mass, 10⁻⁵ of the least of them; mitres as much.
     assert!((inertia - airplane.dry.inertia).norm() < 1e-4 * inertia.norm());
+}
+
+/// As parts, which each see the air where they are, the airplane is one of the default law's bodies; as one folded
+/// surface it would not be.
+#[test]
+fn the_airplane_that_flies_is_in_scope() {
+    assert_eq!(flying(800.0).unwrap().body.out_of_scope(), []);
 }
 
 #[test]

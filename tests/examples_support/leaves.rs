@@ -3,8 +3,8 @@
 use crate::support::leaf::{Blade, Outline};
 use crate::support::scene::{Kind, Scene};
 use crate::support::{Quat, Vec3};
-use rapier3d_immersed::DryMass;
 use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
+use rapier3d_immersed::{DryMass, HydroProperties};
 
 const OUTLINES: [Outline; 5] = [
     Outline::Elliptic,
@@ -21,6 +21,16 @@ fn blade(outline: Outline) -> Blade {
         width: 0.042,
         thickness: 0.0003,
         camber: [0.001, 0.002],
+    }
+}
+
+/// Lobes and a camber of five hundredths are a leaf's: the default law is for them.
+#[test]
+fn leaves_are_in_scope() {
+    for outline in OUTLINES {
+        let solid = blade(outline).solid().unwrap();
+        let hydro = HydroProperties::from_surface(&solid, Vec3::zeros());
+        assert_eq!(hydro.out_of_scope, [], "{outline:?}");
     }
 }
 

@@ -55,6 +55,8 @@ mod parachute;
 #[allow(dead_code, reason = "tests draw nothing")]
 #[path = "../../examples/machines/rov.rs"]
 mod rov;
+#[path = "scope.rs"]
+mod scope_test;
 #[path = "shuttlecock.rs"]
 mod shuttlecock_test;
 #[path = "dart.rs"]

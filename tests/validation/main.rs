@@ -26,6 +26,7 @@ mod published;
 mod published_bars;
 mod readout;
 mod robustness;
+mod scope;
 mod shapes;
 mod sleepers;
 mod sphere;

@@ -4,7 +4,7 @@ use super::{ellipsoid, to_f64};
 use crate::published::bluff::{drag_coefficient, revolved};
 use crate::support::{solid_box, sphere};
 use rapier3d_immersed::geometry::Surface;
-use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
+use rapier3d_immersed::rapier3d::na::{Rotation3, UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{
     DryMass, Fluid, FreeBody, HydroProperties, ImmersedBody, PhysicalLaw, ViscousLaw,
@@ -77,34 +77,89 @@ fn blocks_of_boxes_are_blocks() {
     }
 }
 
-/// A cylinder as rapier's primitive, as a mesh, as the hull of its points, and as two that overlap; a cube
-/// likewise, out of two that overlap. Volumes count twice where parts overlap, as in rapier's own mass
-/// properties, so that only the drag is compared there.
+/// A solid as rapier's primitive, as a mesh, as the hull of its points, and as two or more that touch or overlap: a
+/// cylinder, a cube, and an open box of thin walls, which no primitive is. Volumes count twice where parts
+/// overlap, as in rapier's own mass properties, so that only the drag is compared there.
 #[test]
 fn the_same_solid_has_the_same_drag() {
-    let mesh = revolved(&[[0.0, -0.6], [0.3, -0.6], [0.3, 0.6], [0.0, 0.6]], 40);
-    let primitive = Surface::from_shape(&Cylinder::new(0.6, 0.3)).unwrap();
-    let points: Vec<Vector> = mesh
-        .vertices()
-        .iter()
-        .map(|v| Vector::new(v.x as f32, v.y as f32, v.z as f32))
-        .collect();
-    let hull = SharedShape::convex_hull(&points).unwrap();
-    let hull = Surface::from_shape(hull.as_ref()).unwrap();
-    let piece = SharedShape::cylinder(0.4, 0.3);
-    let shifted = |y: f32| Pose::from_translation(Vector::Y * y);
-    let overlapping =
-        SharedShape::compound(vec![(shifted(-0.2), piece.clone()), (shifted(0.2), piece)]);
-    let overlapping = Surface::from_shape(overlapping.as_ref()).unwrap();
-    for direction in [Vector3::x(), Vector3::y(), Vector3::new(1.0, 1.0, 0.3)] {
-        let expected = drag_coefficient(&primitive, direction, 1.0, 2e4);
-        for (name, surface) in [("mesh", &mesh), ("hull", &hull), ("compound", &overlapping)] {
-            let found = drag_coefficient(surface, direction, 1.0, 2e4);
-            let volumes = surface.volume_integrals().volume / primitive.volume_integrals().volume;
-            assert!(
-                (found / expected - 1.0).abs() < 0.05,
-                "{name} {direction}: {found} {expected}, volume {volumes}"
-            );
+    let surface = |shape: &SharedShape| Surface::from_shape(shape.as_ref()).unwrap();
+    let hull = |mesh: &Surface| {
+        let points = mesh.vertices().iter();
+        let points = points.map(|v| Vector::new(v.x as f32, v.y as f32, v.z as f32));
+        surface(&SharedShape::convex_hull(&points.collect::<Vec<_>>()).unwrap())
+    };
+    let two = |piece: SharedShape, apart: f32| {
+        let at = [-0.5 * apart, 0.5 * apart].map(|y| Pose::from_translation(Vector::Y * y));
+        surface(&SharedShape::compound(
+            at.map(|at| (at, piece.clone())).to_vec(),
+        ))
+    };
+    // A revolution in four steps is square, its sides at 45° to the axes.
+    let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), std::f64::consts::FRAC_PI_4);
+    let square = |profile: &[[f64; 2]]| {
+        let profile: Vec<_> = profile.iter().map(|[r, y]| [r * 2f64.sqrt(), *y]).collect();
+        revolved(&profile, 4).map(|v| turn * v)
+    };
+    let cylinder = revolved(&[[0.0, -0.6], [0.3, -0.6], [0.3, 0.6], [0.0, 0.6]], 40);
+    let cube = square(&[[0.0, -0.5], [0.5, -0.5], [0.5, 0.5], [0.0, 0.5]]);
+    let wall = 0.005;
+    let open = square(&[
+        [0.0, -0.3],
+        [0.5, -0.3],
+        [0.5, 0.3],
+        [0.5 - wall, 0.3],
+        [0.5 - wall, wall - 0.3],
+        [0.0, wall - 0.3],
+    ]);
+    let half = 0.5 * wall as f32;
+    let mut walls = vec![(
+        Pose::from_translation(Vector::Y * (half - 0.3)),
+        SharedShape::cuboid(0.5, half, 0.5),
+    )];
+    for side in [half - 0.5, 0.5 - half] {
+        let at = |axis: Vector| Pose::from_translation(axis * side);
+        walls.push((at(Vector::X), SharedShape::cuboid(half, 0.3, 0.5)));
+        walls.push((at(Vector::Z), SharedShape::cuboid(0.5, 0.3, half)));
+    }
+    for (name, solid) in [
+        (
+            "cylinder",
+            vec![
+                surface(&SharedShape::cylinder(0.6, 0.3)),
+                hull(&cylinder),
+                cylinder,
+                two(SharedShape::cylinder(0.4, 0.3), 0.4),
+            ],
+        ),
+        (
+            "cube",
+            vec![
+                surface(&SharedShape::cuboid(0.5, 0.5, 0.5)),
+                hull(&cube),
+                cube,
+                two(SharedShape::cuboid(0.5, 0.3, 0.5), 0.4),
+                surface(&block([1.0; 3], 2)),
+            ],
+        ),
+        (
+            "open box",
+            vec![open, surface(&SharedShape::compound(walls))],
+        ),
+    ] {
+        for direction in [
+            Vector3::x(),
+            Vector3::y(),
+            -Vector3::y(),
+            Vector3::new(1.0, 1.0, 0.3),
+        ] {
+            let expected = drag_coefficient(&solid[0], direction, 1.0, 2e4);
+            for (i, other) in solid.iter().enumerate().skip(1) {
+                let found = drag_coefficient(other, direction, 1.0, 2e4);
+                assert!(
+                    (found / expected - 1.0).abs() < 0.05,
+                    "{name} {i} {direction}: {found} {expected}"
+                );
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Bodies of thin parts far from each other, which a grid of lines may miss, and slivers.
+//! Bodies of thin parts far from each other, which lines a sixty-fourth of the width apart would miss, and slivers.
 
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::*;
@@ -76,6 +76,41 @@ fn thin_parts_far_from_each_other_are_described() {
             // 4 s in water: far below the 39 m/s of a free fall.
             let speed = world.bodies[body].linvel().length();
             assert!((0.1..10.0).contains(&speed), "{name} {thickness}: {speed}");
+        }
+    }
+}
+
+/// Two thin square plates that face each other from afar: their shadows, to rounding, whatever the gap. Edge on they have
+/// the pressure of flat faces, 0.32 + 0.58, no wake behind so long a body, and the friction of what is seen from
+/// outside, 0.003 (S/A − 4); broadside that pressure, and a wake of 0.96 at most.
+#[test]
+fn plates_far_apart_are_seen() {
+    for (gap, thickness) in [(2.0, 0.01), (20.0, 0.005), (100.0, 0.001)] {
+        let ends = [-0.5, 0.5].map(|side: f32| {
+            let plate = SharedShape::cuboid(0.5 * thickness, 0.5, 0.5);
+            (Pose::translation(side * gap, 0.0, 0.0), plate)
+        });
+        let pair = HydroProperties::from_shape(SharedShape::compound(ends.to_vec()).as_ref());
+        let bluff = pair.unwrap().bluff.unwrap();
+        let t = f64::from(thickness);
+        for axis in 0..3 {
+            // The longest axis is that from plate to plate.
+            let exact = if axis == 0 { 1.0 } else { 2.0 * t };
+            let shadow = bluff.shadow[axis];
+            assert!(
+                (shadow / exact - 1.0).abs() < 1e-3,
+                "{gap} {axis}: {shadow}"
+            );
+            let friction = 0.003 * ((2.0 + 8.0 * t) / exact - 4.0).max(0.0);
+            for drag in bluff.drag {
+                let pressure = drag[axis] - friction;
+                if axis == 0 {
+                    assert!((0.9..1.86).contains(&pressure), "{gap}: {pressure}");
+                } else {
+                    let off = (pressure - 0.9).abs() / drag[axis];
+                    assert!(off < 2e-3, "{gap} {axis}: {pressure} {friction}");
+                }
+            }
         }
     }
 }

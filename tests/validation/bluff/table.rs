@@ -1,8 +1,9 @@
 //! Published drag coefficients of bodies that are not plates, against the law's.
 
 use crate::published::bluff::{
-    block, cone, cup, drag_coefficient, hemisphere, log_error, spheroid, table,
+    block, cone, cup, cup_of, drag_coefficient, hemisphere, log_error, revolved, spheroid, table,
 };
+use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::na::{Rotation3, Vector3};
 use std::f64::consts::PI;
 
@@ -61,6 +62,41 @@ fn smooth_spheres_have_a_drag_crisis() {
         let drag = |re: f64| drag_coefficient(&surface, Vector3::y(), area, re);
         assert!((drag(1e6) / drag(2e5) - 1.0).abs() < 0.05);
     }
+}
+
+/// However thin the walls of a cup and a pot are, their rims are seen: drag on each side as with walls ten times as
+/// thick, whose hollows are by two of their thickness narrower and by one less deep.
+#[test]
+fn thin_walls_hold_the_fluid() {
+    let pot = |wall: f64| {
+        let inner = 0.5 - wall;
+        revolved(
+            &[
+                [0.0, -0.25],
+                [0.5, -0.25],
+                [0.5, 0.25],
+                [inner, 0.25],
+                [inner, wall - 0.25],
+                [0.0, wall - 0.25],
+            ],
+            48,
+        )
+    };
+    let makes: [(&str, &dyn Fn(f64) -> Surface); 2] = [("cup", &cup_of), ("pot", &pot)];
+    for (name, make) in makes {
+        for direction in [Vector3::y(), -Vector3::y(), Vector3::x()] {
+            let drag = |wall: f64| drag_coefficient(&make(wall), direction, PI / 4.0, 2e4);
+            let (thick, thin) = (drag(0.02), [drag(0.005), drag(0.002)]);
+            for thin in thin {
+                let off = (thin / thick).ln().abs();
+                assert!(off < 0.05, "{name} {direction}: {thin} {thick}");
+            }
+        }
+    }
+    // What is published of cups of sheet metal: docs/bluff-bodies.md.
+    let drag = |sign: f64| drag_coefficient(&cup_of(0.005), Vector3::y() * sign, PI / 4.0, 2e4);
+    assert!((drag(1.0) / 1.42 - 1.0).abs() < 0.05, "{}", drag(1.0));
+    assert!((drag(-1.0) / 0.38 - 1.0).abs() < 0.25, "{}", drag(-1.0));
 }
 
 /// The way that a body faces in its frame does not matter: turned and moved, a cup, a hemisphere and a cone drag

@@ -136,8 +136,13 @@ pub fn hemisphere() -> Surface {
 
 /// A hemispherical cup of radius ½, round side down, open above.
 pub fn cup() -> Surface {
+    cup_of(0.02)
+}
+
+/// The same with a wall of this thickness.
+pub fn cup_of(wall: f64) -> Surface {
     let mut profile = arc(0.5, -90.0, 0.0);
-    let mut inner = arc(0.48, -90.0, 0.0);
+    let mut inner = arc(0.5 - wall, -90.0, 0.0);
     inner.reverse();
     profile.extend(inner);
     revolved(&profile, 48)
