@@ -7,6 +7,7 @@ use super::rapier_sets::RapierSets;
 use super::registry::{Registry, SWEEP};
 use super::saved_properties::{Difference, SavedProperties, is_immersed};
 use super::shared_constants::{ConstantsTable, in_layer};
+use super::surface_readout::AmongLayers;
 use super::warning::{Warning, Warnings};
 use crate::body::far_part::FarPart;
 use crate::body::from_rapier::CoreMass;
@@ -139,6 +140,10 @@ impl Admission<'_> {
             if state.saved.is_some() && !state.outdated {
                 // Rapier may list it as active only after its next step.
                 state.flight.continues = false;
+                if let Some(memory) = &mut state.crossing {
+                    // It may have been carried through the surface meanwhile.
+                    memory.active = false;
+                }
                 state.enabling = was_disabled;
                 let handle = state.handle;
                 self.registry.newcomers.push(handle);
@@ -478,6 +483,31 @@ impl Admission<'_> {
             .unwrap_or(0.0)
     }
 
+    /// Whether a wave has come to a sleeping body, or left it, that changes its buoyancy by [`WAKE_SHARE`] of its weight.
+    fn wave_wakes(&self, state: &BodyState, body: &RigidBody, gravity: Vector) -> bool {
+        let medium = &self.environment.medium;
+        if !medium.has_surface() || medium.surface().is_still() || gravity == Vector::ZERO {
+            return false;
+        }
+        let (Some(shared), Some(among)) = (
+            self.constants.get(state.constants),
+            AmongLayers::of(state, self.constants, self.environment, body),
+        ) else {
+            return false;
+        };
+        let memory = state.crossing.as_ref().filter(|memory| memory.active);
+        let whole = if state.layer == 0 { 0.0 } else { 1.0 };
+        let before = memory.map_or(whole, |memory| memory.submerged.into());
+        let now = among.hydrostatics();
+        let jump = medium.layers()[1].fluid.density() - medium.layers()[0].fluid.density();
+        let volume = self
+            .registry
+            .description(state)
+            .map_or(0.0, |body| body.hydro.volume);
+        let change = f64::from(jump.abs()) * volume * (now.submerged_share - before).abs();
+        change > f64::from(WAKE_SHARE) * shared.constants.dry.mass
+    }
+
     /// Whether the fluid around a sleeping body has changed enough to move it: by the pressure
     /// ½ρA |ΔU| (|U| + |U'|) of the mean flow, which is that of a wind that turns, too, and by ½ρA ⅔k of
     /// the turbulence.
@@ -498,6 +528,9 @@ impl Admission<'_> {
         };
         let layer = usize::from(state.layer);
         let at = body.center_of_mass();
+        if self.wave_wakes(state, body, gravity) {
+            return true;
+        }
         let mut pressure = 0.0;
         // A body at a surface feels the fluid above, too.
         if let Some(memory) = state.crossing.as_ref().filter(|memory| memory.active) {

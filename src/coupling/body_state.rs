@@ -1,5 +1,6 @@
 //! What the coupling keeps of one body: plain data.
 
+use super::body_mass::BodyMass;
 use super::control::BodyControl;
 use super::crossing_memory::CrossingMemory;
 use super::equipment::Equipment;
@@ -10,6 +11,7 @@ use crate::math::Row;
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::math::{Real, Rotation, Vector};
 use rapier3d::na::Matrix6;
+use std::borrow::Cow;
 
 /// No index.
 pub(super) const NONE: u32 = u32::MAX;
@@ -70,6 +72,17 @@ impl BodyState {
             Some(memory) if memory.active => memory.mass.to_matrix6(&shared.constants.axes),
             _ => shared.mass_matrix(),
         }
+    }
+
+    /// The same as contacts and joints feel it.
+    pub fn mass<'a>(&self, shared: &'a SharedConstants) -> Cow<'a, BodyMass> {
+        // Rapier has the inertia of a body that is whole in the lowest fluid.
+        let cut = self.crossing.as_ref().filter(|memory| memory.active);
+        let own = cut.and_then(|memory| {
+            let whole = memory.mass.to_matrix6(&shared.constants.axes);
+            BodyMass::of(whole, true)
+        });
+        own.map_or(Cow::Borrowed(&shared.mass), Cow::Owned)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::dynamics::constants::BodyConstants;
 use crate::dynamics::crossing::{FluidMass, Portion};
 use crate::dynamics::parts::PartNow;
-use rapier3d::math::Real;
+use rapier3d::math::{Real, Vector};
 use rapier3d::na::{Matrix3, Vector3};
 
 /// The memory of one body. It is made when the body enters a medium of several fluids, so that no step has to.
@@ -19,12 +19,14 @@ pub(super) struct CrossingMemory {
     pub first: u8,
     /// Its inertia with the fluids when it was last cut.
     pub mass: FluidMass,
+    /// Where its center of mass shall be after the step, world axes: elsewhere its user has put it.
+    pub place: Vector,
     /// The energy that it had at the beginning of the last step, J, and the gravity that this counts on, m/s²;
     /// `None` if other than fluids at rest acted on it.
-    pub energy: Option<(f64, Real)>,
+    pub energy: Option<(f64, Vector)>,
     /// Share of its volume under the free surface.
     pub submerged: Real,
-    /// Whether it is as good as at rest, and in balance besides, on still fluids.
+    /// Whether it is as good as at rest, in the world where fluids move, and in balance besides.
     pub slow: bool,
     pub balanced: bool,
     /// What of each part was in each layer, layer by layer, and the velocity of the fluid there, world axes, m/s.
@@ -43,6 +45,7 @@ impl Default for CrossingMemory {
             active: false,
             first: 0,
             mass: FluidMass::dry(0.0, Matrix3::zeros()),
+            place: Vector::ZERO,
             energy: None,
             submerged: 0.0,
             slow: false,
@@ -82,6 +85,7 @@ impl CrossingMemory {
             active: true,
             first: layer as u8,
             mass,
+            place: Vector::ZERO,
             energy: None,
             submerged: if layer == 0 { 0.0 } else { 1.0 },
             slow: false,
@@ -102,6 +106,7 @@ impl CrossingMemory {
             |own: &Portion| own.share.is_finite() && own.shift.iter().all(|x| x.is_finite());
         self.mass.is_finite()
             && self.submerged.is_finite()
+            && self.place.is_finite()
             && self.portions.iter().all(portion)
             && self.velocities.iter().flatten().all(|x| x.is_finite())
     }

@@ -15,6 +15,7 @@
 mod admission;
 mod body_changes;
 mod body_look;
+mod body_mass;
 mod body_state;
 mod control;
 mod crossing_memory;

@@ -1,6 +1,6 @@
 //! What equal bodies in the same fluid share at run time.
 
-use super::principal_mass::PrincipalMass;
+use super::body_mass::BodyMass;
 use crate::body::from_rapier::inertia;
 use crate::body::{DryMass, ImmersedBody, Thruster};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
@@ -170,17 +170,13 @@ pub(super) struct SharedConstants {
     pub buoyancy_turns: bool,
     /// Whether some motion drags more than half of the body's own mass along.
     pub heavy_fluid: bool,
-    /// Inverse of the 6×6 mass of body and fluid about the center of mass, body axes.
-    pub inverse_mass: Matrix6<f64>,
+    /// Inertia of body and fluid, where the body is whole in it.
+    pub mass: BodyMass,
     /// The parts, if there is more than the whole, and the added mass that couples.
     pub parts: Vec<PartConstants<f32>>,
     pub coupled_mass: CoupledMass<f32>,
-    /// 𝕄₁₁ by its principal axes.
-    pub principal_mass: PrincipalMass,
     /// What rapier is given while nothing touches the body.
     free: MassProperties,
-    /// Whether a push at the center of mass turns the body (A₁₂ ≠ 0).
-    pub coupled: bool,
 }
 
 impl SharedConstants {
@@ -196,9 +192,9 @@ impl SharedConstants {
         let (mass, length) = (constants.mass, constants.length);
         let arm = constants.axes.inverse() * constants.buoyancy_arm / length;
         let whole = constants.mass_matrix();
-        let principal_mass = PrincipalMass::of(&whole.fixed_view::<3, 3>(0, 0).into_owned());
-        let inverse_mass = whole.try_inverse().ok_or(Error::UnphysicalAddedMass)?;
-        let coupling = constants.added_mass.coupling.norm();
+        // Whether a push at the center of mass turns the body: A₁₂ ≠ 0.
+        let coupled = constants.added_mass.coupling.norm() > 1e-6 * mass * length;
+        let with_fluid = BodyMass::of(whole, coupled).ok_or(Error::UnphysicalAddedMass)?;
         let turn = constants.axes.inverse().matrix()
             * whole.fixed_view::<3, 3>(3, 3)
             * constants.axes.matrix();
@@ -220,7 +216,7 @@ impl SharedConstants {
             buoyancy_arm: arm,
             rapier_inertia: Matrix3::from_fn(|i, j| turn[(i.min(j), i.max(j))]),
         };
-        let flow_response = FlowResponse::new(&constants, &inverse_mass);
+        let flow_response = FlowResponse::new(&constants, &with_fluid.inverse);
         let parts: Vec<_> = constants.parts.iter().map(PartConstants::rounded).collect();
         let coupled_mass = constants.coupled.rounded();
         let step = StepConstants {
@@ -243,9 +239,7 @@ impl SharedConstants {
             route,
             buoyancy_turns: arm.amax() > 1e-7,
             heavy_fluid: constants.added_mass.linear.symmetric_eigenvalues().max() > 0.5 * dry.mass,
-            inverse_mass,
-            principal_mass,
-            coupled: coupling > 1e-6 * mass * length,
+            mass: with_fluid,
             constants,
         })
     }

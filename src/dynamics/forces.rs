@@ -66,7 +66,8 @@ impl ForceBreakdown {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ForceBreakdown {
     /// Inertia of the fluid that the body drags along: `−A dν/dt` with the acceleration of the last
-    /// step, and the Munk moment and the other inertial couplings.
+    /// step, and the Munk moment and the other inertial couplings. Of a body in a free surface also what the waves that
+    /// it makes take from it, and not what the change of its added mass does while it goes under.
     pub added_mass: ForceAndTorque,
     /// Along the velocity of the pressure point, against it: pressure and friction.
     pub drag: ForceAndTorque,

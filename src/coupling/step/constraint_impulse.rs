@@ -37,6 +37,7 @@
 
 use super::stage_data::{HeldStart, JointAction};
 use super::{contact_mass, held_motion, locked_axes};
+use crate::coupling::body_mass::BodyMass;
 use crate::coupling::body_state::FlightState;
 use crate::coupling::shared_constants::SharedConstants;
 use crate::math::vector;
@@ -64,12 +65,12 @@ const NEAR: Real = 1e-5;
 
 /// The mass that a jointed body shows rapier: along the last impulse of its joints; the largest until that
 /// is known, so that the first impulse is that of the whole fluid where the body moves broadside on.
-pub(super) fn joint_mass(shared: &SharedConstants, body: &RigidBody, impulse: Vector) -> f64 {
+pub(super) fn joint_mass(mass: &BodyMass, body: &RigidBody, impulse: Vector) -> f64 {
     let length = impulse.length();
     if length > 0.0 {
-        contact_mass::mass_along(shared, body, impulse / length)
+        contact_mass::mass_along(mass, body, impulse / length)
     } else {
-        shared.principal_mass.masses.max_element().into()
+        mass.principal.masses.max_element().into()
     }
 }
 
@@ -116,7 +117,7 @@ fn turned_by(v: Vector, turn: Vector) -> Vector {
 /// opened. Of a body that is `touched` by others nothing can be learnt: in water a plate that slides has a
 /// multiple of its mass across the slide, and what a contact does would be counted on as the joint's.
 pub(super) fn learn(
-    shared: &SharedConstants,
+    mass: &BodyMass,
     body: &mut RigidBody,
     flight: &mut FlightState,
     start: &HeldStart,
@@ -149,7 +150,7 @@ pub(super) fn learn(
         flight.constraint_turns = with_body.length_squared() < (impulse - last).length_squared();
     }
     let attitude = start.attitude;
-    let masses = &shared.principal_mass;
+    let masses = &mass.principal;
     let opened =
         expected != Vector::ZERO && impulse.dot(expected) < OPEN * expected.length_squared();
     flight.constraint_time = dt;

@@ -5,6 +5,7 @@
 //! normal, `m_s = 1/(n·𝕄⁻¹n)`, so that the solver finds the right impulse; after the step the
 //! velocity change that this impulse λ really causes, `𝕄⁻¹λ`, replaces `λ/m_s`.
 
+use crate::coupling::body_mass::BodyMass;
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::SharedConstants;
@@ -143,9 +144,9 @@ fn approach(pair: &ContactPair, sets: &RapierSets) -> Option<Vector> {
 }
 
 /// The scalar mass that the body shows along `normal` (world axes), kg.
-pub(super) fn mass_along(shared: &SharedConstants, body: &RigidBody, normal: Vector) -> f64 {
+pub(super) fn mass_along(mass: &BodyMass, body: &RigidBody, normal: Vector) -> f64 {
     let n = to_quaternion(*body.rotation()).inverse() * to_f64(normal);
-    let response = shared.inverse_mass.fixed_view::<3, 3>(0, 0);
+    let response = mass.inverse.fixed_view::<3, 3>(0, 0);
     1.0 / n.dot(&(response * n))
 }
 
@@ -153,6 +154,7 @@ pub(super) fn mass_along(shared: &SharedConstants, body: &RigidBody, normal: Vec
 /// contacts acted on the scalar `solver_mass`.
 pub(super) fn correction(
     shared: &SharedConstants,
+    mass: &BodyMass,
     body: &RigidBody,
     narrow_phase: &NarrowPhase,
     solver_mass: f64,
@@ -188,10 +190,10 @@ pub(super) fn correction(
         rotation.inverse() * to_f64(moment),
     );
     // Without coupling the rotational inertia that rapier has is the right one.
-    let t = if shared.coupled { t } else { t * 0.0 };
-    let change = shared.inverse_mass * Vector6::new(f.x, f.y, f.z, t.x, t.y, t.z);
+    let t = if mass.coupled { t } else { t * 0.0 };
+    let change = mass.inverse * Vector6::new(f.x, f.y, f.z, t.x, t.y, t.z);
     let linear = change.fixed_rows::<3>(0) - f / solver_mass;
-    let angular = if shared.coupled {
+    let angular = if mass.coupled {
         let inertia = shared.constants.dry.inertia + shared.constants.added_mass.angular;
         let already = inertia.try_inverse().map_or(t * 0.0, |inverse| inverse * t);
         change.fixed_rows::<3>(3) - already

@@ -14,12 +14,12 @@ use crate::coupling::crossing_memory::CrossingMemory;
 use crate::coupling::environment::Environment;
 use crate::coupling::shared_constants::{ConstantsTable, SharedConstants};
 use crate::dynamics::ForceAndTorque;
-use crate::dynamics::crossing::{CrossingConstants, CrossingStep, Cut};
+use crate::dynamics::crossing::{CrossingConstants, CrossingStep, Cut, Moved};
 use crate::dynamics::integrate::Motion;
 use crate::dynamics::locked::Locks;
 use crate::dynamics::parts::PartNow;
 use crate::hydro::viscous::ForceFactors;
-use crate::math::spatial::{Twist, Wrench, rotate, rotate_back};
+use crate::math::spatial::{Twist, rotate, rotate_back};
 use crate::math::{Row, row, to_f64, to_real, vector};
 use rapier3d::dynamics::RigidBody;
 use rapier3d::math::{Real, Vector};
@@ -29,6 +29,8 @@ use rapier3d::na::{Quaternion, Rotation3, Vector3};
 const BALANCED: f64 = 0.002;
 /// … and share of the speed of a wave as long as the body is high.
 const SLOW: f64 = 0.01;
+/// The same where fluids move.
+const STOPPED: f64 = 0.001;
 
 /// One body of a batch that is cut.
 #[derive(Clone, Debug)]
@@ -209,7 +211,7 @@ impl OneStep<'_> {
         let gravity = context.gravity * input.gravity_scale;
         let energy_before = memory
             .energy
-            .filter(|(_, of)| own.alone && *of == gravity.length());
+            .filter(|(_, of)| own.alone && *of == gravity);
         let step = CrossingStep {
             constants,
             cut: Cut {
@@ -237,10 +239,10 @@ impl OneStep<'_> {
         memory.first = own.first as u8;
         memory.mass = moved.mass;
         let resting = self.environment.medium.is_still();
-        memory.energy = resting.then_some((moved.energy, gravity.length()));
+        memory.energy = resting.then_some((moved.energy, gravity));
         memory.submerged = moved.first.submerged as Real;
-        let [slow, balanced] = self.rests(&moved.load, moved.height, &motion);
-        (memory.slow, memory.balanced) = (resting && slow, balanced);
+        memory.place = own.center + to_real(motion.displacement + velocity * dt);
+        [memory.slow, memory.balanced] = self.rests(&moved, &motion, &velocity, resting);
         own.load = ForceAndTorque {
             force: to_real(moved.load.force),
             torque: to_real(moved.load.torque),
@@ -248,15 +250,31 @@ impl OneStep<'_> {
         self.write(&motion, moved.substeps, &velocity, output);
     }
 
-    /// Whether a body is as good as at rest and in balance, so that rapier may let it sleep: speeds within
-    /// [`SLOW`] of that of a wave as long as the body is high, and forces within [`BALANCED`] of its weight.
-    fn rests(&self, load: &Wrench<f64>, height: f64, motion: &Motion<f64>) -> [bool; 2] {
+    /// Whether a body is as good as at rest and in balance, so that rapier may let it sleep. Speeds are within [`SLOW`] of
+    /// that of a wave as long as the body is high, in the world and within [`STOPPED`] of it where fluids move: what drifts
+    /// along slowly does not rest. Forces are within [`BALANCED`] of the weight, and the surface holds it against them:
+    /// what is under altogether sinks or rises, however slowly. Of a thin body, which rounding tilts by more than such a
+    /// torque, the edges are within [`BALANCED`] of its height from where they float.
+    fn rests(
+        &self,
+        moved: &Moved,
+        motion: &Motion<f64>,
+        fluid_velocity: &Vector3<f64>,
+        resting: bool,
+    ) -> [bool; 2] {
+        let (load, height) = (&moved.load, moved.height);
         let gravity = to_f64(self.context.gravity).norm() * f64::from(self.input.gravity_scale);
         let weight = gravity * self.constants.dry_mass * BALANCED;
-        let speed = SLOW * (gravity * height).sqrt();
         let v = &motion.velocity;
-        let balanced = load.force.norm() <= weight && load.torque.norm() <= weight * height;
-        [v.linear.norm().max(v.angular.norm()) <= speed, balanced]
+        let linear = rotate(&motion.attitude, &v.linear) + fluid_velocity;
+        let share = if resting { SLOW } else { STOPPED };
+        let speed = share * (gravity * height).sqrt();
+        let held = moved.heave_stiffness * (SLOW * height);
+        let reach = self.constants.semi_axes.max();
+        let tilted = moved.tilt_stiffness * (BALANCED * height / reach);
+        let balanced = load.force.norm() <= weight.min(held)
+            && load.torque.norm() <= tilted.max(weight * height);
+        [linear.norm().max(v.angular.norm()) <= speed, balanced]
     }
 
     /// Looks at the fluid around each part in each layer.

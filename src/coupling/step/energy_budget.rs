@@ -32,14 +32,13 @@
 use super::held_motion;
 use super::jointed_systems::{JointedSystems, SystemKind, spring_energy};
 use super::stage_data::{HeldEnd, HeldStart, JointAction};
+use crate::coupling::body_mass::BodyMass;
 use crate::coupling::body_state::BodyState;
 use crate::coupling::rapier_sets::{RapierSets, scaled};
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::{ConstantsTable, SharedConstants};
-use crate::math::spatial::{Twist, dot};
 use rapier3d::dynamics::RigidBody;
 use rapier3d::math::{Real, Rotation, Vector};
-use rapier3d::na::Vector3;
 
 /// Share of its energy that a body may get back of what was lost.
 const RESERVE: Real = 2e-4;
@@ -65,34 +64,17 @@ impl JointedBodies {
     }
 }
 
-/// Kinetic energy of body and fluid, J; velocities in plate axes.
-fn kinetic_energy(shared: &SharedConstants, linear: Vector, angular: Vector) -> Real {
-    let constants = &shared.constants;
-    let length = constants.length as Real;
-    let velocity = Twist {
-        linear: Vector3::new(linear.x, linear.y, linear.z),
-        angular: Vector3::new(angular.x, angular.y, angular.z) * length,
-    };
-    let momentum = shared.step.inertia.mass_matrix().apply(&velocity);
-    let twice = dot(&momentum.force, &velocity.linear) + dot(&momentum.torque, &velocity.angular);
-    0.5 * constants.mass as Real * twice
-}
-
-/// The same, velocities in world axes; `attitude` maps the body's frame to the world.
-fn energy_at(
-    shared: &SharedConstants,
-    attitude: Rotation,
-    linear: Vector,
-    angular: Vector,
-) -> Real {
-    let back = (attitude * shared.axes).inverse();
-    kinetic_energy(shared, back * linear, back * angular)
+/// Kinetic energy of body and fluid, J; velocities in world axes; `attitude` maps the body's frame to the world.
+fn energy_at(mass: &BodyMass, attitude: Rotation, linear: Vector, angular: Vector) -> Real {
+    let back = attitude.inverse();
+    mass.energy(back * linear, back * angular)
 }
 
 /// What a jointed body has after the step, after what its joints `did`; `driven` says whether something drives
 /// its system.
 pub(super) fn measure(
     shared: &SharedConstants,
+    mass: &BodyMass,
     body: &RigidBody,
     start: &HeldStart,
     number: u32,
@@ -106,9 +88,9 @@ pub(super) fn measure(
     let mean_turn = (start.angular + body.angvel()) * 0.5;
     let without_joints = if start.steady {
         let loads = start.load_force.dot(mean) + start.load_torque.dot(mean_turn);
-        energy_at(shared, start.attitude, before, start.angular) + loads * dt
+        energy_at(mass, start.attitude, before, start.angular) + loads * dt
     } else {
-        let integrated = kinetic_energy(shared, start.own_linear, start.own_angular);
+        let integrated = mass.energy(shared.axes * start.own_linear, shared.axes * start.own_angular);
         let moment = held_motion::turned(shared, start.attitude, start.expected.turn);
         integrated
             - start
@@ -119,7 +101,7 @@ pub(super) fn measure(
     };
     HeldEnd {
         start: number,
-        energy: energy_at(shared, *body.rotation(), relative, body.angvel()),
+        energy: energy_at(mass, *body.rotation(), relative, body.angvel()),
         without_joints,
         work: if driven {
             let moment = held_motion::turned(shared, start.attitude, did.turn);
@@ -212,8 +194,9 @@ pub(super) fn keep(
             && let Some(body) = sets.bodies.get(start.handle)
         {
             let attitude = *body.rotation();
-            sum.at_rest += energy_at(shared, attitude, start.fluid_velocity, Vector::ZERO);
-            sum.of_world += energy_at(shared, attitude, body.linvel(), body.angvel());
+            let mass = state.mass(shared);
+            sum.at_rest += energy_at(&mass, attitude, start.fluid_velocity, Vector::ZERO);
+            sum.of_world += energy_at(&mass, attitude, body.linvel(), body.angvel());
         }
     }
     for spring in systems.springs() {

@@ -14,6 +14,7 @@
 
 use super::contact_mass::for_each_pair;
 use crate::coupling::body_state::FlightState;
+use crate::coupling::principal_mass::PrincipalMass;
 use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::shared_constants::SharedConstants;
 use rapier3d::dynamics::RigidBody;
@@ -27,9 +28,10 @@ const LASTING: u8 = 8;
 const RESTING: Real = 0.05;
 
 /// The impulse of the friction that the coming step counts on. `normal` is that of the contacts,
-/// `solver_mass` the mass along it.
+/// `solver_mass` the mass along it; `masses` are those of body and fluid.
 pub(super) fn expected(
     shared: &SharedConstants,
+    masses: &PrincipalMass,
     body: &RigidBody,
     flight: &FlightState,
     user_force: Vector,
@@ -39,7 +41,6 @@ pub(super) fn expected(
 ) -> Vector {
     let dt = sets.integration_parameters.dt;
     let attitude = *body.rotation();
-    let masses = &shared.principal_mass;
     let across = |v: Vector| v - normal * v.dot(normal);
     let weight = sets.gravity * body.gravity_scale() * shared.constants.dry.mass as Real;
     let push = (flight.fluid_force + user_force + weight) * dt;

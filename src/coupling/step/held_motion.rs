@@ -11,6 +11,7 @@
 
 use super::locked_axes;
 use super::stage_data::{HeldStart, Substeps};
+use crate::coupling::body_mass::BodyMass;
 use crate::coupling::shared_constants::SharedConstants;
 use crate::math::{to_f64, to_quaternion, to_real};
 use rapier3d::math::{Real, Rotation, Vector};
@@ -27,6 +28,7 @@ const NEAR: Real = 1e-4;
 /// world at its start; `guess` is the angular velocity that the integrator found.
 pub(super) fn end_velocities(
     shared: &SharedConstants,
+    mass: &BodyMass,
     plate: Rotation,
     start: &HeldStart,
     guess: Vector,
@@ -36,7 +38,7 @@ pub(super) fn end_velocities(
     for _ in 0..PASSES {
         let last = angular;
         let reached = replayed(plate, start.angular, angular, substeps);
-        (linear, angular) = under_locks(shared, reached, start);
+        (linear, angular) = under_locks(shared, mass, reached, start);
         // What is left is a tenth of this, or the part of a radian that the step turns the body by.
         if (angular - last).length_squared() <= NEAR * NEAR * angular.length_squared() {
             break;
@@ -49,6 +51,7 @@ pub(super) fn end_velocities(
 /// locks.
 pub(super) fn under_locks(
     shared: &SharedConstants,
+    mass: &BodyMass,
     plate: Rotation,
     start: &HeldStart,
 ) -> (Vector, Vector) {
@@ -63,7 +66,7 @@ pub(super) fn under_locks(
     };
     let body = to_quaternion(plate * shared.axes.inverse()).to_rotation_matrix();
     let kept = six(start.linear, start.angular);
-    let obeys = locked_axes::obey(shared, &body, start.locks, six(linear, angular), &kept);
+    let obeys = locked_axes::obey(mass, &body, start.locks, six(linear, angular), &kept);
     (
         to_real(obeys.fixed_rows::<3>(0).into_owned()),
         to_real(obeys.fixed_rows::<3>(3).into_owned()),

@@ -10,7 +10,7 @@
 //! all changes that obey the lock, `Δν = −𝕄⁻¹Eᵀ(E𝕄⁻¹Eᵀ)⁻¹(Eν − q)` (E picks the locked axes, along which
 //! the velocity is q) leaves the least energy, never more than before where q is zero.
 
-use crate::coupling::shared_constants::SharedConstants;
+use crate::coupling::body_mass::BodyMass;
 use crate::math::Row;
 use rapier3d::dynamics::LockedAxes;
 use rapier3d::na::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
@@ -63,7 +63,7 @@ pub(super) fn torque_for(
 /// `velocity` (linear and angular, world axes) after the impulse that makes it `kept` along the locked
 /// axes. `body` maps the body's frame to the world.
 pub(super) fn obey(
-    shared: &SharedConstants,
+    mass: &BodyMass,
     body: &Rotation3<f64>,
     locks: LockedAxes,
     velocity: Vector6<f64>,
@@ -75,7 +75,7 @@ pub(super) fn obey(
     let mut turn = Matrix6::zeros();
     turn.fixed_view_mut::<3, 3>(0, 0).copy_from(body.matrix());
     turn.fixed_view_mut::<3, 3>(3, 3).copy_from(body.matrix());
-    let response = turn * shared.inverse_mass * turn.transpose();
+    let response = turn * mass.inverse * turn.transpose();
     // Entries of mass and inertia differ by orders of magnitude: the equations are scaled by the diagonal.
     let scale = Vector6::from_fn(|i, _| 1.0 / response[(i, i)].sqrt());
     let system = Matrix6::from_fn(|i, j| {

@@ -27,6 +27,12 @@ const MASS_CHANGE: Real = 0.02;
 /// that settles.
 const JOINTED_MASS_CHANGE: Real = 0.1;
 
+/// Shares of its smallest semi-axis that a body may be off the place where it was going: of one that its user has not
+/// moved, and of one whose energy is as it was; and the rounding of places.
+const MOVED: Real = 0.1;
+const SAME_PLACE: Real = 1e-3;
+const PLACE_ROUNDING: Real = 1e-6;
+
 /// Step below which a body is moved by a force alone, s. Its pose is off by an eighth of `Δv dt` then, but a
 /// mean velocity found from a pose would be off by the rounding of the attitude, 10⁻⁷/dt.
 const SHORT: Real = 1e-5;
@@ -87,6 +93,9 @@ pub(super) fn prepare(
     let touching = normal.is_some() || jointed || locks != LockedAxes::empty();
     let dt = to.context.dt;
     state.control.advance(touching, to.series, dt.into());
+    // What flies freely needs none.
+    let mass = touching.then(|| state.mass(shared));
+    let mass = mass.as_deref().unwrap_or(&shared.mass);
     let flight = &mut state.flight;
     if !touching {
         if flight.constraint_time > 0.0 || flight.contact_steps > 0 {
@@ -98,9 +107,9 @@ pub(super) fn prepare(
         flight.contact_steps = 0;
     }
     let wanted_mass = match normal {
-        Some(normal) => contact_mass::mass_along(shared, body, normal) as Real,
+        Some(normal) => contact_mass::mass_along(mass, body, normal) as Real,
         None if jointed => {
-            constraint_impulse::joint_mass(shared, body, flight.constraint_impulse) as Real
+            constraint_impulse::joint_mass(mass, body, flight.constraint_impulse) as Real
         }
         None => shared.constants.dry.mass as Real,
     };
@@ -177,8 +186,9 @@ pub(super) fn prepare(
             expected
         }
         Some(normal) => {
+            let masses = &mass.principal;
             let impulse =
-                friction::expected(shared, body, flight, force, normal, solver_mass, sets);
+                friction::expected(shared, masses, body, flight, force, normal, solver_mass, sets);
             flight.constraint_impulse = impulse;
             flight.constraint_time = dt;
             JointAction {
@@ -242,15 +252,21 @@ pub(super) fn prepare(
         if !memory.active && state.flight.continues {
             memory.enter_from(&shared.constants, layer);
         }
-        if medium.is_still() {
-            may_sleep = memory.slow && (touching || memory.balanced);
-        }
+        may_sleep = memory.slow && (touching || (medium.is_still() && memory.balanced));
+        let center = body.center_of_mass();
+        let off = (center - memory.place).length();
+        let thinnest = crossing.semi_axes.min() as Real;
+        let rounding = PLACE_ROUNDING * center.length();
+        // What has put a body elsewhere than where it was going has not pushed it there through the surface.
+        let way = MOVED * thinnest + linear.length() * dt;
+        let moved_there = touching || off <= way + rounding;
+        let undisturbed = undisturbed && off <= SAME_PLACE * thinnest + rounding;
         let own = CrossingBody {
             first: layers.first,
             count: layers.last + 1 - layers.first,
             rows: 0,
-            center: body.center_of_mass(),
-            known_mass: memory.active,
+            center,
+            known_mass: memory.active && moved_there,
             alone: undisturbed && free,
             memory,
             load: Default::default(),

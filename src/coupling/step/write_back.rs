@@ -8,6 +8,7 @@ use super::stage_data::{
 use super::workspace::{Batch, Workspace};
 use super::{constraint_impulse, contact_mass, energy_budget, locked_axes};
 use crate::body::from_rapier::inertia;
+use crate::coupling::body_mass::BodyMass;
 use crate::coupling::body_state::{FlightState, NONE};
 use crate::coupling::equipment::Equipment;
 use crate::coupling::rapier_sets::RapierSets;
@@ -99,6 +100,8 @@ fn write_body(
     }
     let state = to.registry.at_mut(input.state as usize)?;
     let shared = to.constants.get(input.constants)?;
+    let held = !input.free || input.system != NONE || input.locked;
+    let mass = held.then(|| state.mass(shared));
     let flight = &mut state.flight;
     let mut saved = SavedForces {
         handle: input.handle,
@@ -113,13 +116,14 @@ fn write_body(
     let (mut force, mut torque) = (force, torque);
     let jointed = input.system != NONE;
     let mut motion = None;
-    if !input.free || jointed || input.locked {
+    if let Some(mass) = &mass {
         let still = |flow: &SeenFlow| flow.change == Row::default();
         let disturbance = batch.disturbances.get(input.disturbance as usize);
         let own = state.equipment.as_deref();
         let own = own.map_or_else(Default::default, Equipment::action);
         let held = Held {
             shared,
+            mass,
             input,
             output,
             expected: disturbance.map_or(JointAction::default(), |d| d.expected),
@@ -132,7 +136,7 @@ fn write_body(
         let mut start = held.start(body, flight, force);
         if input.locked {
             let plate = Rotation::from_array(output.motion.attitude);
-            let end = held_motion::under_locks(shared, plate, &start);
+            let end = held_motion::under_locks(shared, mass, plate, &start);
             motion = Some(MeanMotion::locked(input, output, to.context, end));
         } else if !input.free {
             (force, torque) = held.forces(body, flight, &mut start, force, torque);
@@ -200,6 +204,7 @@ fn write_body(
 /// A body that something holds, in the step that is written.
 struct Held<'a> {
     shared: &'a SharedConstants,
+    mass: &'a BodyMass,
     input: &'a StepInput,
     output: &'a StepOutput,
     /// What the constraints are expected to do.
@@ -285,7 +290,7 @@ impl Held<'_> {
             let substeps = context.substeps_of(input);
             let guess = vector(self.output.end_angular);
             let (end_linear, end_angular) =
-                held_motion::end_velocities(shared, plate, start, guess, substeps);
+                held_motion::end_velocities(shared, self.mass, plate, start, guess, substeps);
             start.expected_change = end_linear - linear;
             start.expected_turn = end_angular - angular;
             force = (start.expected_change / dt - gravity) * input.solver_mass;
@@ -301,7 +306,7 @@ impl Held<'_> {
         if input.in_contact && input.system == NONE {
             // What the fluid does, as far as the mass of its own tells.
             let own = self.user_force + gravity * shared.constants.dry.mass as f32;
-            let masses = &shared.principal_mass;
+            let masses = &self.mass.principal;
             let change = masses.scale(attitude, start.expected_change, |mass| mass);
             flight.fluid_force = (change - self.expected.impulse) / dt - own;
         }
@@ -381,6 +386,7 @@ pub(super) fn finish(
     let Some(shared) = constants.get(state.constants) else {
         return;
     };
+    let with_fluid = state.mass(shared);
     if let Some(start) = workspace.jointed.starts.get(saved.held as usize) {
         if start.linked
             && let Some((linear, angular)) = sets.link_velocities(saved.handle)
@@ -398,12 +404,12 @@ pub(super) fn finish(
         if touched {
             workspace.jointed.systems.drive(start.system);
         }
-        let did = constraint_impulse::learn(shared, body, flight, start, touched, dt);
+        let did = constraint_impulse::learn(&with_fluid, body, flight, start, touched, dt);
         // A body that flew the whole step has the energy that was integrated.
         if !(start.flies && did.impulse == Vector::ZERO) {
             let (_, kind) = workspace.jointed.systems.system(start.system);
             let end =
-                energy_budget::measure(shared, body, start, saved.held, &did, kind.driven, dt);
+                energy_budget::measure(shared, &with_fluid, body, start, saved.held, &did, kind.driven, dt);
             workspace.jointed.ends.push(end);
         }
     }
@@ -414,7 +420,7 @@ pub(super) fn finish(
         return;
     };
     let mass = state.flight.solver_mass.into();
-    if let Some((linear, angular)) = contact_mass::correction(shared, body, sets.narrow_phase, mass)
+    if let Some((linear, angular)) = contact_mass::correction(shared, &with_fluid, body, sets.narrow_phase, mass)
         && (linear + angular).is_finite()
     {
         state.flight.corrected_contacts += 1;

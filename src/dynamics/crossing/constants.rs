@@ -1,5 +1,6 @@
 //! What a body that is cut by boundaries of fluids needs, made once.
 
+use super::cut::Portion;
 use crate::body::{DryMass, ImmersedBody, Part};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
 use crate::dynamics::part_constants::{BodyFrame, PartConstants, coupled_mass};
@@ -143,6 +144,32 @@ impl CrossingConstants {
             fluids: fluids.collect(),
             radiates: body.law != ViscousLaw::Inviscid,
         })
+    }
+
+    /// What of the body is in a layer, of whose parts this is.
+    pub fn of_body(&self, own: &[Portion]) -> Portion {
+        if let [whole] = own {
+            return *whole;
+        }
+        let nothing = (0.0, Vector3::zeros());
+        let (volume, moment) =
+            self.parts
+                .iter()
+                .zip(own)
+                .fold(nothing, |(volume, moment), (part, own)| {
+                    let under = part.volume * own.share;
+                    let middle = part.middle + own.shift;
+                    (volume + under, moment + middle * under)
+                });
+        let shift = if volume > 0.0 {
+            moment / volume - self.whole.middle
+        } else {
+            Vector3::zeros()
+        };
+        Portion {
+            share: volume / self.whole.volume,
+            shift,
+        }
     }
 
     /// Number of parts, at least one.

@@ -73,6 +73,40 @@ pub(crate) struct Wetted {
     pub submerged: f64,
 }
 
+impl CutBody {
+    /// What of the hull is under a surface as a part of the body. A surface that jumps within a triangle, or is too steep
+    /// for numbers, would leave more than there is, or elsewhere.
+    fn possible(&self, found: Submerged, place: &Place) -> Submerged {
+        let (volume, moment) = (found.volume * self.scale, found.moment * self.scale);
+        let nothing = Submerged {
+            volume: 0.0,
+            moment: Vector3::zeros(),
+            waterplane: Waterplane::default(),
+        };
+        if volume >= self.volume {
+            let moment = place.turn * self.middle * self.volume;
+            return Submerged {
+                volume: self.volume,
+                moment,
+                ..nothing
+            };
+        }
+        let waterplane = found.waterplane.scaled(self.scale);
+        let [x, z] = waterplane.first;
+        let [xx, xz, zz] = waterplane.second;
+        let finite = (moment.sum() + waterplane.area + x + z + xx + xz + zz).is_finite();
+        if !(volume > 0.0 && finite) {
+            return nothing;
+        }
+        let farthest = volume * self.radius;
+        Submerged {
+            volume,
+            moment: moment * (farthest / moment.norm().max(farthest)),
+            waterplane,
+        }
+    }
+}
+
 impl Cut<'_> {
     /// What of a body is under the boundary over a layer: level axes about the center of mass.
     pub fn under(&self, layer: usize, body: &CutBody, place: &Place) -> Submerged {
@@ -92,11 +126,7 @@ impl Cut<'_> {
             };
             body.hull.under(&place.turn, depth)
         };
-        Submerged {
-            volume: found.volume * body.scale,
-            moment: found.moment * body.scale,
-            waterplane: found.waterplane.scaled(body.scale),
-        }
+        body.possible(found, place)
     }
 
     /// Calls `each` with the layer's number from the first one on, and with volume and first moment of what of a body

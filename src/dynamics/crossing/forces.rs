@@ -80,10 +80,14 @@ impl CrossingConstants {
             force: resisted.force - accelerated.linear * self.dry_mass,
             torque: resisted.torque - self.dry_inertia * accelerated.angular,
         };
-        found.added_mass = ForceAndTorque {
+        let inertia = ForceAndTorque {
             force: to_real(attitude * -own.force),
             torque: to_real(attitude * -own.torque),
         };
+        // What the waves that it makes take.
+        let stiffness = self.stiffness(&wetted, place, gravity.max(0.0));
+        let radiation = self.radiation(&stiffness, &wetted.mass);
+        found.added_mass = inertia - world(stiffness.apply(v).scaled(radiation));
         found
     }
 }

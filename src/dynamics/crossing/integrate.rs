@@ -60,8 +60,11 @@ pub(crate) struct Moved {
     /// Weight, buoyancy and the pressure of accelerating fluids in the first substep, N and N·m about the center of
     /// mass.
     pub load: Wrench<f64>,
-    /// How high the body was then, m.
+    /// How high the body was then, m, and how stiffly the surface held it against heave, N/m, and against a tilt in its
+    /// softest direction, N·m.
     pub height: f64,
+    pub heave_stiffness: f64,
+    pub tilt_stiffness: f64,
 }
 
 impl CrossingStep<'_> {
@@ -110,15 +113,16 @@ impl CrossingStep<'_> {
             let h = self.dt / count;
             let fluids = &self.constants.fluids[self.cut.first..][..self.cut.count];
             let parts = self.constants.part_count();
-            let shares = portions.chunks(parts).zip(fluids);
+            let in_layers = portions.chunks(parts).zip(fluids);
+            let in_layers = in_layers.map(|(own, fluid)| (self.constants.of_body(own), fluid));
             let stiffness = self.stiffness(&wetted, &place, gravity, rise, h);
             let reaction = Fluids {
                 fluids,
                 portions,
                 now: self.now,
                 length: self.constants.length,
-                coupled: coupled_mass(shares.map(|(own, fluid)| (own[0].share, fluid))),
-                radiation: self.radiation(&stiffness, &wetted.mass),
+                coupled: coupled_mass(in_layers, self.constants.length),
+                radiation: self.constants.radiation(&stiffness, &wetted.mass),
                 stiffness,
             };
             let iterations = self.integrator.iterations;
@@ -127,9 +131,14 @@ impl CrossingStep<'_> {
         }
         keep_finite(&start, motion, self.dt);
         let dry = FluidMass::dry(self.constants.dry_mass, self.constants.dry_inertia);
+        let first = first.unwrap_or_else(|| Wetted::nothing(dry));
+        let [xx, xz, zz] = first.waterplane.second;
         Moved {
             substeps: count,
-            first: first.unwrap_or_else(|| Wetted::nothing(dry)),
+            heave_stiffness: gravity * first.waterplane.area,
+            // A bound from below on the smaller eigenvalue.
+            tilt_stiffness: gravity * (xx.min(zz) - xz.abs()),
+            first,
             mass: mass.unwrap_or(dry),
             energy,
             load: first_load,
@@ -188,8 +197,10 @@ impl CrossingStep<'_> {
         let mut velocity = motion.velocity;
         velocity.angular /= self.constants.length;
         let kinetic = wetted.mass.energy(&velocity);
-        let height = place.center.y * self.constants.dry_mass;
-        let potential = gravity * (height + wetted.potential);
+        // Gravity that is off the medium's up works along the level, too.
+        let pull = self.level.inverse() * self.gravity;
+        let weight = -pull.dot(&place.center) * self.constants.dry_mass;
+        let potential = weight + gravity * wetted.potential;
         let energy = kinetic + potential;
         match self.energy_before {
             Some(before) if energy > before && kinetic > 0.0 => {
@@ -241,21 +252,10 @@ impl CrossingStep<'_> {
             if *acceleration == Vector3::zeros() {
                 continue;
             }
-            // Of several parts the middle one's share stands for the body's.
-            let (mut volume, mut middle) =
-                (own[0].share * c.whole.volume, c.whole.middle + own[0].shift);
-            if parts > 1 {
-                let cuts = c.parts.iter().zip(own);
-                let (sum, moment) =
-                    cuts.fold((0.0, Vector3::zeros()), |(sum, moment), (part, own)| {
-                        let volume = part.volume * own.share;
-                        (sum + volume, moment + (part.middle + own.shift) * volume)
-                    });
-                (volume, middle) = (sum, if sum > 0.0 { moment / sum } else { middle });
-            }
+            let Portion { share, shift } = c.of_body(own);
+            let (volume, middle) = (share * c.whole.volume, c.whole.middle + shift);
             let to_plate = place.turn.transpose() * self.level.inverse().matrix();
             let acceleration = to_plate * acceleration;
-            let share = volume / c.whole.volume;
             let added = c.added_mass.about(-middle);
             let pushed =
                 (added.linear * acceleration * share + acceleration * volume) * fluid.density;
@@ -291,16 +291,6 @@ impl CrossingStep<'_> {
         }
     }
 
-    /// Damping over stiffness, s. Heave is damped by [`RADIATION`], slower motions less as their frequencies.
-    fn radiation(&self, stiffness: &Blocks<f64>, mass: &FluidMass) -> f64 {
-        let heave = stiffness.m11.trace();
-        if !self.constants.radiates || heave <= 0.0 {
-            return 0.0;
-        }
-        let mean = mass.linear.trace() / (3.0 * self.constants.mass);
-        2.0 * RADIATION * (mean / heave).sqrt()
-    }
-
     /// The hydrostatic stiffness in units of the integrator, limited to what the body can still displace in a substep.
     fn stiffness(
         &self,
@@ -314,13 +304,30 @@ impl CrossingStep<'_> {
         let way = 0.5 * h * rise.abs() * wetted.waterplane.area;
         let gravity = gravity.max(0.0);
         let held = if way > room { room / way } else { 1.0 };
-        let (mass, length) = (self.constants.mass, self.constants.length);
-        let k = wetted.stiffness(place, gravity * held / mass);
+        self.constants.stiffness(wetted, place, gravity * held)
+    }
+}
+
+impl CrossingConstants {
+    /// The hydrostatic stiffness in units of the integrator.
+    pub(super) fn stiffness(&self, wetted: &Wetted, place: &Place, gravity: f64) -> Blocks<f64> {
+        let length = self.length;
+        let k = wetted.stiffness(place, gravity / self.mass);
         Blocks {
             m11: k.m11,
             m12: k.m12 / length,
             m21: k.m21 / length,
             m22: k.m22 / (length * length),
         }
+    }
+
+    /// Damping over stiffness, s. Heave is damped by [`RADIATION`], slower motions less as their frequencies.
+    pub(super) fn radiation(&self, stiffness: &Blocks<f64>, mass: &FluidMass) -> f64 {
+        let heave = stiffness.m11.trace();
+        if !self.radiates || heave <= 0.0 {
+            return 0.0;
+        }
+        let mean = mass.linear.trace() / (3.0 * self.mass);
+        2.0 * RADIATION * (mean / heave).sqrt()
     }
 }

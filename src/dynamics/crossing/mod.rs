@@ -27,5 +27,5 @@ mod transfer;
 pub(crate) use constants::CrossingConstants;
 pub(crate) use cut::{Cut, Place, Portion};
 pub use hydrostatics::Hydrostatics;
-pub(crate) use integrate::CrossingStep;
+pub(crate) use integrate::{CrossingStep, Moved};
 pub(crate) use transfer::FluidMass;

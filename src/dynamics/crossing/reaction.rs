@@ -31,9 +31,10 @@ pub(super) struct Fluids<'a> {
     pub radiation: f64,
 }
 
-/// The added mass that couples of a body with these shares in fluids.
+/// The added mass that couples of a body with these portions in fluids, each at the middle of what is there.
 pub(super) fn coupled_mass<'a>(
-    shares: impl Iterator<Item = (f64, &'a CrossingFluid)>,
+    portions: impl Iterator<Item = (Portion, &'a CrossingFluid)>,
+    length: f64,
 ) -> CoupledMass<f64> {
     let mut sum = CoupledMass {
         m11: Matrix3::zeros(),
@@ -42,8 +43,11 @@ pub(super) fn coupled_mass<'a>(
         first: Vector3::zeros(),
         second: Matrix3::zeros(),
     };
-    for (share, fluid) in shares {
-        let own = &fluid.coupled;
+    for (Portion { share, shift }, fluid) in portions {
+        if share < NOTHING {
+            continue;
+        }
+        let own = &fluid.coupled.moved(&(shift / length));
         sum.m11 += own.m11 * share;
         sum.m12 += own.m12 * share;
         sum.isotropic += own.isotropic * share;

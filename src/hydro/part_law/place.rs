@@ -38,6 +38,21 @@ scalar_struct! {
     }
 }
 
+impl CoupledMass<f64> {
+    /// The same at another place, `by` away.
+    pub fn moved(&self, by: &Vector3<f64>) -> Self {
+        let crossed = self.first * by.transpose();
+        let moved = by * by.transpose() * self.isotropic;
+        Self {
+            m11: self.m11,
+            m12: self.m12 - product(&self.m11, &skew(by)),
+            isotropic: self.isotropic,
+            first: self.first + by * self.isotropic,
+            second: self.second + crossed + crossed.transpose() + moved,
+        }
+    }
+}
+
 impl<T: Scalar> HingePlace<T> {
     /// A part's place when it is turned about the hinge by an angle of this sine and cosine.
     #[inline(always)]
