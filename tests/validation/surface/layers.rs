@@ -148,7 +148,7 @@ fn forces_are_those_of_the_place() {
         pond.world.bodies[pond.body].set_translation(Vector::Y * to, true);
         let forces = pond.immersion.forces(&pond.world.bodies, pond.body);
         let lift = forces.unwrap().buoyancy.force.y;
-        let exact = fluid.density() * 0.2 * 9.81 * 0.5;
+        let exact = fluid.density() * 0.2 * 9.81;
         assert!(
             (lift / exact - 1.0).abs() < 1e-3,
             "{to}: {lift} for {exact}"
