@@ -4,7 +4,7 @@ use super::mesh::RawMesh;
 use super::picture::{self, Line, Panel, time_color};
 use super::recording::Recording;
 use super::scene::{Kind, Scene};
-use super::sheet::{Camera, contact_sheet};
+use super::sheet::{Camera, UPRIGHT, contact_sheet};
 use super::{Quat, Vec3, cli};
 use plotters::style::RGBColor;
 use rapier3d_immersed::AddedMass;
@@ -350,7 +350,7 @@ pub fn frames(scene: &Scene, recording: &Recording, flight: &Flight) -> String {
             (time, camera)
         })
         .collect();
-    contact_sheet(scene, recording, &moments, 4)
+    contact_sheet(scene, recording, &moments, 4, UPRIGHT)
         .unwrap_or_else(|problem| cli::cannot_write("frames.svg".as_ref(), problem))
 }
 

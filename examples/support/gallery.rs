@@ -3,7 +3,7 @@
 use super::picture::{self, Line, Panel};
 use super::recording::Recording;
 use super::scene::Scene;
-use super::sheet::{Camera, contact_sheet};
+use super::sheet::{Camera, UPRIGHT, contact_sheet};
 use super::summary::Summary;
 use super::{Vec3, cli};
 use plotters::style::RGBColor;
@@ -28,7 +28,7 @@ pub fn frames(scene: &Scene, recording: &Recording, summary: &Summary) -> String
         .map(|i| (until * f64::from(i) / 6.0, whole))
         .collect();
     moments.push((end, close));
-    contact_sheet(scene, recording, &moments, 4)
+    contact_sheet(scene, recording, &moments, 4, UPRIGHT)
         .unwrap_or_else(|problem| cli::cannot_write("frames.svg".as_ref(), problem))
 }
 

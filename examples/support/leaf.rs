@@ -97,25 +97,28 @@ pub struct Blade {
 }
 
 impl Blade {
-    /// Number of points of the outline.
-    const AROUND: usize = 40;
-    /// Rings between the middle and the edge.
-    const RINGS: usize = 3;
-
     /// The blade as a closed solid: x along it, y up (the normal), z across.
     ///
     /// # Errors
     /// Those of [`Surface::new`], e.g. for a blade of no thickness.
     pub fn solid(&self) -> Result<Surface, Error> {
-        let outline = self.outline.points(self.length, self.width, Self::AROUND);
+        self.solid_of(40, 3)
+    }
+
+    /// The same of so many points of the outline, and so many rings between the middle and the edge.
+    ///
+    /// # Errors
+    /// Those of [`Surface::new`].
+    pub fn solid_of(&self, around: usize, rings: usize) -> Result<Surface, Error> {
+        let outline = self.outline.points(self.length, self.width, around);
         let around = outline.len() as u32;
         let rise = |x: f64, z: f64| {
             let (s, t) = (2.0 * x / self.length, 2.0 * z / self.width);
             self.camber[0] * s * s + self.camber[1] * t * t
         };
         let mut sheet = vec![[0.0, 0.0]];
-        for ring in 1..=Self::RINGS {
-            let s = ring as f64 / Self::RINGS as f64;
+        for ring in 1..=rings {
+            let s = ring as f64 / rings as f64;
             sheet.extend(outline.iter().map(|p| [p[0] * s, p[1] * s]));
         }
         let count = sheet.len() as u32;
@@ -131,7 +134,7 @@ impl Blade {
         let at = |ring: u32, i: u32| 1 + (ring - 1) * around + i % around;
         for i in 0..around {
             top.push([0, at(1, i + 1), at(1, i)]);
-            for ring in 1..Self::RINGS as u32 {
+            for ring in 1..rings as u32 {
                 let [a, b] = [at(ring, i), at(ring, i + 1)];
                 let [c, d] = [at(ring + 1, i), at(ring + 1, i + 1)];
                 top.push([a, b, d]);
@@ -140,7 +143,7 @@ impl Blade {
         }
         let mut triangles = top.clone();
         triangles.extend(top.iter().map(|t| [t[2], t[1], t[0]].map(|v| v + count)));
-        let edge = Self::RINGS as u32;
+        let edge = rings as u32;
         for i in 0..around {
             let [a, b] = [at(edge, i), at(edge, i + 1)];
             triangles.push([a, b, b + count]);

@@ -106,8 +106,10 @@ pub struct Scene {
     pub pieces: Vec<Piece>,
     /// Colour of each piece.
     pub colors: Vec<[f32; 3]>,
-    /// What stands, the floor first.
+    /// What stands, the floor or the water's surface first.
     pub obstacles: Vec<Obstacle>,
+    /// Linear RGB of water whose surface is the floor at y = 0: what is under it is seen through it.
+    pub water: Option<[f32; 3]>,
 }
 
 impl Scene {
@@ -119,6 +121,7 @@ impl Scene {
             pieces: Vec::new(),
             colors: Vec::new(),
             obstacles: Vec::new(),
+            water: None,
         }
     }
 
@@ -163,6 +166,22 @@ impl Scene {
     /// Adds a fixed ball, m.
     pub fn add_ball(&mut self, pose: Pose, radius: f64, color: [f32; 3]) {
         self.add_obstacle(pose, SharedShape::ball(radius as f32), color);
+    }
+
+    /// Adds the surface of water at y = 0 to look at, of `size` along x and z, m; before any obstacle.
+    pub fn add_water(&mut self, size: [f64; 2], color: [f32; 3]) {
+        let half = Vec3::new(0.5 * size[0], 0.01, 0.5 * size[1]);
+        let shape = SharedShape::cuboid(half.x as f32, half.y as f32, half.z as f32);
+        let solid = surface_of(shape.as_cuboid().expect("a box").to_trimesh());
+        let look = Look {
+            solid: Arc::new(solid),
+            color,
+            faces: Arc::new(box_faces(half)),
+            ball: None,
+        };
+        let pose = Pose::from_translation(to_rapier(&Vec3::new(0.0, -half.y, 0.0)));
+        self.obstacles.insert(0, Obstacle { pose, look });
+        self.water = Some(color);
     }
 
     fn add_obstacle(&mut self, pose: Pose, shape: SharedShape, color: [f32; 3]) {

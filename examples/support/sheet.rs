@@ -12,6 +12,9 @@ use plotters::style::{Color, IntoFont, RGBAColor, RGBColor, TextStyle};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
+/// Pixels of a moment of what falls from high.
+pub const UPRIGHT: (u32, u32) = (600, 840);
+
 /// Where the picture is taken from.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
@@ -108,6 +111,26 @@ impl Face {
     }
 }
 
+/// Divides faces by the water's level into those above, and those below as they are seen through water of a colour.
+fn divided(faces: &[Face], water: [f32; 3]) -> [Vec<Face>; 2] {
+    const CLEAR: f32 = 0.3;
+    /// What floats flat, a part of a millimeter deep, is seen as above.
+    const LEVEL: f64 = -0.01;
+    let part = |face: &Face, side: f64, color| {
+        let between = |a: &Vec3, b: &Vec3, s: f64| a + (b - a) * s;
+        let corners = clipped(&face.corners, |p| side * (p.y - LEVEL), between);
+        (corners.len() > 2).then_some(Face { corners, color })
+    };
+    let through = |face: &Face| {
+        let mixed = |k: usize| water[k] + CLEAR * (face.color[k] - water[k]);
+        part(face, -1.0, [0, 1, 2].map(mixed))
+    };
+    [
+        faces.iter().filter_map(|f| part(f, 1.0, f.color)).collect(),
+        faces.iter().filter_map(through).collect(),
+    ]
+}
+
 /// sRGB of a linear colour under a light.
 fn display(color: [f32; 3], brightness: f64) -> RGBColor {
     let [r, g, b] = color.map(|x| {
@@ -117,7 +140,7 @@ fn display(color: [f32; 3], brightness: f64) -> RGBColor {
     RGBColor(r, g, b)
 }
 
-/// Draws the recorded frames at the times (s) and from the cameras given, in rows of `columns`.
+/// Draws the recorded frames at the times (s) and from the cameras given, of `frame` pixels each, in rows of `columns`.
 ///
 /// # Errors
 /// What the drawing library says.
@@ -126,12 +149,12 @@ pub fn contact_sheet(
     recording: &Recording,
     moments: &[(f64, Camera)],
     columns: usize,
+    frame: (u32, u32),
 ) -> Result<String, Failure> {
-    const FRAME: (u32, u32) = (600, 840);
     let rows = moments.len().div_ceil(columns);
     let mut svg = String::new();
     {
-        let size = (FRAME.0 * columns as u32, FRAME.1 * rows as u32);
+        let size = (frame.0 * columns as u32, frame.1 * rows as u32);
         let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
         let areas = root.split_evenly((rows, columns));
         for (area, (time, camera)) in areas.iter().zip(moments) {
@@ -284,16 +307,23 @@ fn draw(
         pieces.extend(Face::all(&scene.look(i), *position, *turn));
     }
     let mut standing: Vec<Solid> = Vec::new();
+    let mut shades: Vec<Vec<[f64; 2]>> = Vec::new();
     for (i, obstacle) in scene.obstacles.iter().enumerate() {
         let (position, turn) = pose_parts(&obstacle.pose);
         let look = &obstacle.look;
         let solid = match look.ball {
             Some(radius) => Solid::Ball(position, radius, look.color),
-            None => Solid::Faces(
-                Face::all(look, position, turn)
+            None => {
+                let mut faces: Vec<Face> = Face::all(look, position, turn)
                     .filter(|face| face.normal().dot(&(eye - face.center())) > 0.0)
-                    .collect(),
-            ),
+                    .collect();
+                if let Some(water) = scene.water
+                    && i > 0
+                {
+                    [faces, _] = divided(&faces, water);
+                }
+                Solid::Faces(faces)
+            }
         };
         // The floor comes first, with all shadows on it.
         match &solid {
@@ -303,14 +333,32 @@ fn draw(
                 }
             }
             _ => {
-                let corners = look.solid.vertices().iter();
-                let shadows = corners.map(|v| shadow(&(position + turn * v)));
-                let outline = convex_outline(shadows.map(|p| [p.x, p.z]).collect());
-                let outline = outline.iter().map(|p| Vec3::new(p[0], 0.0, p[1]));
-                canvas.shade(outline, 0.22)?;
+                let corners: Vec<Vec3> = match &solid {
+                    // What is under water casts none.
+                    Solid::Faces(faces) if scene.water.is_some() => {
+                        faces.iter().flat_map(|face| face.corners.clone()).collect()
+                    }
+                    _ => {
+                        let vertices = look.solid.vertices().iter();
+                        vertices.map(|v| position + turn * v).collect()
+                    }
+                };
+                let shadows = corners.iter().map(shadow);
+                shades.push(convex_outline(shadows.map(|p| [p.x, p.z]).collect()));
                 standing.push(solid);
             }
         }
+    }
+    let distance = |face: &Face| (face.center() - eye).norm();
+    if let Some(water) = scene.water {
+        let [above, mut below] = divided(&pieces, water);
+        below.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+        below.iter().try_for_each(|face| canvas.face(face))?;
+        pieces = above;
+    }
+    for outline in &shades {
+        let outline = outline.iter().map(|p| Vec3::new(p[0], 0.0, p[1]));
+        canvas.shade(outline, 0.22)?;
     }
     for piece in &pieces {
         // Higher pieces cast fainter shadows, as under a wide sky.
@@ -328,7 +376,6 @@ fn draw(
         let point = face.center();
         !standing.iter().any(|solid| solid.hides(eye, &point))
     });
-    let distance = |face: &Face| (face.center() - eye).norm();
     pieces.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
     for piece in &pieces {
         canvas.face(piece)?;

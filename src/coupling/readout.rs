@@ -3,7 +3,7 @@
 use super::body_state::BodyState;
 use super::environment::Environment;
 use super::equipment::PartState;
-use super::shared_constants::ConstantsTable;
+use super::shared_constants::{ConstantsTable, in_layer};
 use super::surface_readout::AmongLayers;
 use crate::dynamics::ForceBreakdown;
 use crate::dynamics::forces::Instant;
@@ -25,15 +25,17 @@ pub(super) fn forces(
     part: Option<usize>,
 ) -> Option<ForceBreakdown> {
     state.saved.as_ref()?;
-    if let Some(among) = AmongLayers::of(state, constants, environment, body)
-        && among.is_cut()
-    {
-        return Some(among.forces(part));
+    let mut layer = usize::from(state.layer);
+    if let Some(among) = AmongLayers::of(state, constants, environment, body) {
+        if among.is_cut() {
+            return Some(among.forces(part));
+        }
+        // One that its user has just moved is not where it was in the last step.
+        layer = among.first();
     }
-    let c = &constants.get(state.constants)?.constants;
+    let c = &constants.get(in_layer(state.constants, layer))?.constants;
     let axes = UnitQuaternion::from_rotation_matrix(&c.axes);
     let attitude = to_quaternion(*body.rotation()) * axes;
-    let layer = usize::from(state.layer);
     let mean = environment.mean_flow(layer, body.center_of_mass());
     let plate_axes = |row| to_f64(vector(row));
     let motion = &state.flight.motion;

@@ -58,6 +58,11 @@ impl<'a> AmongLayers<'a> {
         })
     }
 
+    /// The uppermost that the body may be in.
+    pub fn first(&self) -> usize {
+        self.cut.first
+    }
+
     /// Whether the body may be in more than one.
     pub fn is_cut(&self) -> bool {
         self.cut.count > 1

@@ -1,11 +1,25 @@
-//! What the examples share is tested here: examples themselves have no tests.
+//! What the examples share is tested here, and the parts of the pond and the boat: examples themselves have no tests.
 
+#[path = "../../examples/pond/scene.rs"]
+#[allow(dead_code, reason = "shared with the example")]
+mod pond_scene;
+#[path = "../../examples/boat/righting.rs"]
+#[allow(dead_code, reason = "shared with the example")]
+mod righting;
+#[path = "../../examples/boat/seakeeping.rs"]
+#[allow(dead_code, reason = "shared with the example")]
+mod seakeeping;
 #[path = "../../examples/support/mod.rs"]
 mod support;
+#[path = "../../examples/boat/wigley.rs"]
+#[allow(dead_code, reason = "shared with the example")]
+mod wigley;
 
 mod airplane;
 mod animation;
+mod boat;
 mod falls;
 mod leaves;
 mod meshes;
+mod pond;
 mod specimens;

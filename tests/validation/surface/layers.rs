@@ -129,6 +129,33 @@ fn a_sleeping_raft_wakes() {
     }
 }
 
+/// A body that its user has just moved from the water into the air, or back, is read out as where it is: buoyancy is ρVg of
+/// the fluid there.
+#[test]
+fn forces_are_those_of_the_place() {
+    let mut pond = Pond::new(
+        RigidBodyBuilder::dynamic(),
+        ColliderBuilder::cuboid(0.5, 0.1, 0.5).density(500.0),
+        60.0,
+    );
+    for (from, to, fluid) in [
+        (0.0, 5.0, Fluid::AIR),
+        (5.0, -5.0, Fluid::WATER),
+        (-5.0, 5.0, Fluid::AIR),
+    ] {
+        pond.world.bodies[pond.body].set_translation(Vector::Y * from, true);
+        pond.run(0.02);
+        pond.world.bodies[pond.body].set_translation(Vector::Y * to, true);
+        let forces = pond.immersion.forces(&pond.world.bodies, pond.body);
+        let lift = forces.unwrap().buoyancy.force.y;
+        let exact = fluid.density() * 0.2 * 9.81;
+        assert!(
+            (lift / exact - 1.0).abs() < 1e-3,
+            "{to}: {lift} for {exact}"
+        );
+    }
+}
+
 /// A surface of the user's own that is no number counts as level, and one that has a hole does no harm.
 struct NotANumber;
 
