@@ -92,6 +92,7 @@ impl FluidMass {
     }
 
     /// Whether no entry is infinite or no number.
+    #[cfg(feature = "serde-serialize")]
     pub fn is_finite(&self) -> bool {
         let all = self
             .linear
