@@ -355,7 +355,9 @@ impl Admission<'_> {
         let memory = state.crossing.get_or_insert_default();
         if !memory.active && state.flight.continues {
             // Whole in one fluid until now.
-            memory.enter_from(&old.constants, usize::from(state.layer));
+            let place = sets.bodies.get(handle).map(RigidBody::center_of_mass);
+            let from = usize::from(state.layer);
+            memory.enter_from(&old.constants, from, place.unwrap_or_default());
         }
         state.flight.converts_torque = error > CONVERTED_ERROR;
         state.flight.solver_mass = mass as Real;

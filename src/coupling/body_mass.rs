@@ -14,6 +14,8 @@ pub(super) struct BodyMass {
     pub principal: PrincipalMass,
     /// Whether rapier's inertia does not tell how a push at the center of mass turns the body.
     pub coupled: bool,
+    /// Whether a boundary of fluids cuts the body, so that rapier has another inertia of it.
+    pub cut: bool,
 }
 
 impl BodyMass {
@@ -24,6 +26,7 @@ impl BodyMass {
             principal: PrincipalMass::of(&whole.fixed_view::<3, 3>(0, 0).into_owned()),
             whole,
             coupled,
+            cut: false,
         })
     }
 

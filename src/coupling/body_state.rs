@@ -80,7 +80,9 @@ impl BodyState {
         let cut = self.crossing.as_ref().filter(|memory| memory.active);
         let own = cut.and_then(|memory| {
             let whole = memory.mass.to_matrix6(&shared.constants.axes);
-            BodyMass::of(whole, true)
+            let mut own = BodyMass::of(whole, true)?;
+            own.cut = true;
+            Some(own)
         });
         own.map_or(Cow::Borrowed(&shared.mass), Cow::Owned)
     }

@@ -73,8 +73,8 @@ impl CrossingMemory {
         known.then_some((*portion, *self.velocities.get(index)?))
     }
 
-    /// A body that was whole in a layer, where these were its constants, gets into another.
-    pub fn enter_from(&mut self, constants: &BodyConstants, layer: usize) {
+    /// A body at a place that was whole in a layer, where these were its constants, gets into another.
+    pub fn enter_from(&mut self, constants: &BodyConstants, layer: usize, place: Vector) {
         let to_plate = constants.axes.inverse();
         let added = constants.added_mass.rotated(&to_plate);
         let dry = &constants.dry;
@@ -85,7 +85,7 @@ impl CrossingMemory {
             active: true,
             first: layer as u8,
             mass,
-            place: Vector::ZERO,
+            place,
             energy: None,
             submerged: if layer == 0 { 0.0 } else { 1.0 },
             slow: false,

@@ -191,11 +191,20 @@ pub(super) fn correction(
     );
     // Without coupling the rotational inertia that rapier has is the right one.
     let t = if mass.coupled { t } else { t * 0.0 };
-    let change = mass.inverse * Vector6::new(f.x, f.y, f.z, t.x, t.y, t.z);
+    let mut change = mass.inverse * Vector6::new(f.x, f.y, f.z, t.x, t.y, t.z);
+    let inertia = shared.constants.dry.inertia + shared.constants.added_mass.angular;
+    let already = inertia.try_inverse().map_or(t * 0.0, |inverse| inverse * t);
+    if mass.cut {
+        // The solver knew another inertia: as much of the impulse acts as changes the velocities that it acts on as it
+        // wanted. All of it would throw the body off.
+        let wanted = f.norm_squared() / solver_mass + t.dot(&already);
+        let own = change.fixed_rows::<3>(0).dot(&f) + change.fixed_rows::<3>(3).dot(&t);
+        if own > 0.0 {
+            change *= wanted / own;
+        }
+    }
     let linear = change.fixed_rows::<3>(0) - f / solver_mass;
     let angular = if mass.coupled {
-        let inertia = shared.constants.dry.inertia + shared.constants.added_mass.angular;
-        let already = inertia.try_inverse().map_or(t * 0.0, |inverse| inverse * t);
         change.fixed_rows::<3>(3) - already
     } else {
         Vector3::zeros()

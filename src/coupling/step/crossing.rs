@@ -209,9 +209,7 @@ impl OneStep<'_> {
         self.look_around(own, &velocity);
         let memory = &mut *own.memory;
         let gravity = context.gravity * input.gravity_scale;
-        let energy_before = memory
-            .energy
-            .filter(|(_, of)| own.alone && *of == gravity);
+        let energy_before = memory.energy.filter(|(_, of)| own.alone && *of == gravity);
         let step = CrossingStep {
             constants,
             cut: Cut {

@@ -90,7 +90,10 @@ pub(super) fn measure(
         let loads = start.load_force.dot(mean) + start.load_torque.dot(mean_turn);
         energy_at(mass, start.attitude, before, start.angular) + loads * dt
     } else {
-        let integrated = mass.energy(shared.axes * start.own_linear, shared.axes * start.own_angular);
+        let integrated = mass.energy(
+            shared.axes * start.own_linear,
+            shared.axes * start.own_angular,
+        );
         let moment = held_motion::turned(shared, start.attitude, start.expected.turn);
         integrated
             - start

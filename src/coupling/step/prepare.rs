@@ -27,10 +27,11 @@ const MASS_CHANGE: Real = 0.02;
 /// that settles.
 const JOINTED_MASS_CHANGE: Real = 0.1;
 
-/// Shares of its smallest semi-axis that a body may be off the place where it was going: of one that its user has not
-/// moved, and of one whose energy is as it was; and the rounding of places.
+/// Share of its smallest semi-axis that a body may be off the place where it was going, besides the way that it goes in
+/// a step, if its user has not put it there; the share of that up to which its energy is as it was; and the rounding of
+/// places.
 const MOVED: Real = 0.1;
-const SAME_PLACE: Real = 1e-3;
+const SAME_PLACE: Real = 0.05;
 const PLACE_ROUNDING: Real = 1e-6;
 
 /// Step below which a body is moved by a force alone, s. Its pose is off by an eighth of `Δv dt` then, but a
@@ -187,8 +188,16 @@ pub(super) fn prepare(
         }
         Some(normal) => {
             let masses = &mass.principal;
-            let impulse =
-                friction::expected(shared, masses, body, flight, force, normal, solver_mass, sets);
+            let impulse = friction::expected(
+                shared,
+                masses,
+                body,
+                flight,
+                force,
+                normal,
+                solver_mass,
+                sets,
+            );
             flight.constraint_impulse = impulse;
             flight.constraint_time = dt;
             JointAction {
@@ -250,7 +259,7 @@ pub(super) fn prepare(
         let crossing = to.constants.crossing(state.constants)?;
         let mut memory = state.crossing.take().unwrap_or_default();
         if !memory.active && state.flight.continues {
-            memory.enter_from(&shared.constants, layer);
+            memory.enter_from(&shared.constants, layer, body.center_of_mass());
         }
         may_sleep = memory.slow && (touching || (medium.is_still() && memory.balanced));
         let center = body.center_of_mass();
@@ -260,7 +269,7 @@ pub(super) fn prepare(
         // What has put a body elsewhere than where it was going has not pushed it there through the surface.
         let way = MOVED * thinnest + linear.length() * dt;
         let moved_there = touching || off <= way + rounding;
-        let undisturbed = undisturbed && off <= SAME_PLACE * thinnest + rounding;
+        let undisturbed = undisturbed && off <= SAME_PLACE * way + rounding;
         let own = CrossingBody {
             first: layers.first,
             count: layers.last + 1 - layers.first,

@@ -408,8 +408,16 @@ pub(super) fn finish(
         // A body that flew the whole step has the energy that was integrated.
         if !(start.flies && did.impulse == Vector::ZERO) {
             let (_, kind) = workspace.jointed.systems.system(start.system);
-            let end =
-                energy_budget::measure(shared, &with_fluid, body, start, saved.held, &did, kind.driven, dt);
+            let end = energy_budget::measure(
+                shared,
+                &with_fluid,
+                body,
+                start,
+                saved.held,
+                &did,
+                kind.driven,
+                dt,
+            );
             workspace.jointed.ends.push(end);
         }
     }
@@ -420,7 +428,8 @@ pub(super) fn finish(
         return;
     };
     let mass = state.flight.solver_mass.into();
-    if let Some((linear, angular)) = contact_mass::correction(shared, &with_fluid, body, sets.narrow_phase, mass)
+    if let Some((linear, angular)) =
+        contact_mass::correction(shared, &with_fluid, body, sets.narrow_phase, mass)
         && (linear + angular).is_finite()
     {
         state.flight.corrected_contacts += 1;

@@ -1,5 +1,6 @@
 //! Bodies at the surface between two fluids.
 
+mod changed;
 mod energy;
 mod exact;
 mod layers;
