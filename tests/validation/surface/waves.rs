@@ -14,21 +14,18 @@ fn raft(amplitude: f64, wavelength: f64, hertz: f32) -> (Pond, [f64; 3]) {
         wavelength,
         ..Wave::default()
     };
-    let k = TAU / wavelength;
-    let omega = (9.81 * k).sqrt();
-    // It goes with the water of the crest from the first, which friction alone would bring it to in minutes.
-    let along = amplitude * omega * (k * amplitude).exp();
-    let body = RigidBodyBuilder::dynamic()
-        .translation(Vector::Y * amplitude as f32)
-        .linvel(Vector::X * along as f32);
-    let raft = ColliderBuilder::cuboid(0.25, 0.025, 0.25).density(100.0);
-    let mut pond = Pond::new(body, raft, hertz);
+    let mut pond = Pond::new(
+        RigidBodyBuilder::dynamic().translation(Vector::Y * amplitude as f32),
+        ColliderBuilder::cuboid(0.25, 0.025, 0.25).density(100.0),
+        hertz,
+    );
     // Nothing to speak of over the water: still air would hold the raft back, whose freeboard is nine times its draft.
     let nothing = Fluid::new(1e-3, 1e-3).unwrap();
     let waves = Waves::new(Dispersion::default(), &[wave]).unwrap();
     pond.immersion
         .set_medium(Medium::layered(nothing, Fluid::WATER).with_surface(waves));
-    (pond, [amplitude, omega, k])
+    let k = TAU / wavelength;
+    (pond, [amplitude, (9.81 * k).sqrt(), k])
 }
 
 /// A light raft on a long wave goes up and down with it, to 1 %, and is carried along by the Stokes drift a²ωk, to
