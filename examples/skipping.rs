@@ -145,7 +145,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         RGBColor(211, 47, 47),
     );
     println!("least speed of the disc that skips, with and without viscous forces (degrees, m/s):");
-    least.window = Some([(0.0, 75.0), (0.0, 8.0)]);
+    least.window = Some([(0.0, 75.0), (0.0, 12.0)]);
     least.items.push(Item::Dots(vec![(20.0, 2.5)], red, 6));
     for (law, color) in [(ViscousLaw::Inviscid, grey), (ViscousLaw::default(), blue)] {
         let curve = least_speeds(law);

@@ -218,14 +218,14 @@ fn log() -> Result<Kind, Error> {
 
 /// Two banks and two posts that hold the log.
 fn furnish(scene: &mut Scene) {
-    let (half_thickness, half_across) = (0.1, 1.5);
+    let (half_thickness, half_across) = (0.1, 2.2);
     let angle = SLOPE.atan();
     for side in [-1.0, 1.0] {
-        // The upper side goes through the water's edge, a third of it below.
+        // The upper side goes through the water's edge, a meter of it below.
         let edge = Vec3::new(0.0, 0.0, side * HALF_WIDTH);
         let uphill = Vec3::new(0.0, angle.sin(), side * angle.cos());
         let normal = Vec3::new(0.0, angle.cos(), -side * angle.sin());
-        let middle = edge + uphill * (half_across / 3.0) - normal * half_thickness;
+        let middle = edge + uphill * (half_across - 1.0) - normal * half_thickness;
         let pose = Pose::from_parts(
             Vector::new(0.0, middle.y as f32, middle.z as f32),
             Rotation::from_rotation_x(-(side * angle) as f32),
@@ -280,7 +280,7 @@ impl Count {
             }
             let touched = held.is_some();
             let over_ground = at.y - ground(at.z);
-            if at.z.abs() > HALF_WIDTH && over_ground < 0.05 {
+            if at.z.abs() > HALF_WIDTH && over_ground.abs() < 0.05 {
                 count.ashore += 1;
             } else if at.y < -0.05 && !touched {
                 count.sunk += 1;
