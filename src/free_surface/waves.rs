@@ -278,8 +278,8 @@ mod tests {
             assert_eq!(waves.highest(), 1.0 + ripple);
             waves.bend()
         };
-        assert_eq!(bend(0.1), 40.0);
-        assert_eq!(bend(0.102), 3.0);
+        assert_eq!(bend(0.17), 40.0);
+        assert_eq!(bend(0.18), 3.0);
         let none = Waves::new(Dispersion::default(), &[]).unwrap();
         assert!(none.is_still() && none.bend() == f64::INFINITY && none.highest() == 0.0);
     }

@@ -46,7 +46,8 @@ pub(in crate::coupling) struct CrossingBody {
     pub known_mass: bool,
     /// Whether nothing but fluids at rest acts on it.
     pub alone: bool,
-    pub memory: Box<CrossingMemory>,
+    /// Taken from the body's state for the step, and given back with it.
+    pub memory: Option<Box<CrossingMemory>>,
     /// Weight, buoyancy and the pressure of accelerating fluids.
     pub load: ForceAndTorque,
 }
@@ -206,8 +207,10 @@ impl OneStep<'_> {
             },
             last: kept.last_substep.into(),
         };
-        self.look_around(own, &velocity);
-        let memory = &mut *own.memory;
+        let Some(memory) = own.memory.as_deref_mut() else {
+            return;
+        };
+        self.look_around(own.count, memory, &velocity);
         let gravity = context.gravity * input.gravity_scale;
         let energy_before = memory.energy.filter(|(_, of)| own.alone && *of == gravity);
         let step = CrossingStep {
@@ -276,11 +279,10 @@ impl OneStep<'_> {
     }
 
     /// Looks at the fluid around each part in each layer.
-    fn look_around(&self, own: &mut CrossingBody, frame: &Vector3<f64>) {
+    fn look_around(&self, count: usize, memory: &mut CrossingMemory, frame: &Vector3<f64>) {
         let parts = self.constants.part_count();
-        let memory = &mut *own.memory;
         memory.accelerations.clear();
-        for number in 0..own.count {
+        for number in 0..count {
             let of_layer = self.accelerations.iter().skip(number * parts).take(parts);
             let sum: Vector = of_layer.sum();
             memory.accelerations.push(to_f64(sum) / parts as f64);
@@ -290,7 +292,7 @@ impl OneStep<'_> {
         memory.velocities.clear();
         memory.now.clear();
         let factors = &self.input.factors;
-        for index in 0..own.count * parts {
+        for index in 0..count * parts {
             let row = self.rows.get(index).copied().unwrap_or_default();
             let [drag, rotational, translational, _] = row.factors;
             memory.velocities.push(self.fluid_at(index, frame));

@@ -277,7 +277,7 @@ pub(super) fn prepare(
             center,
             known_mass: memory.active && moved_there,
             alone: undisturbed && free,
-            memory,
+            memory: Some(memory),
             load: Default::default(),
         };
         add_crossing(own, crossing, state, rapier_attitude, moves, batch);
@@ -368,7 +368,8 @@ fn add_crossing(
             if moves {
                 // At the middle of what was there in the last step.
                 let cut = constants.parts.get(i).unwrap_or(&constants.whole);
-                let before = own.memory.before(layer, i, parts);
+                let memory = own.memory.as_ref();
+                let before = memory.and_then(|memory| memory.before(layer, i, parts));
                 let shift = before.map_or(Vector3::zeros(), |(portion, _)| portion.shift);
                 let at = own.center + attitude * to_real(cut.middle + shift);
                 batch.part_points.push(at);

@@ -48,7 +48,7 @@ pub(super) fn write_back(batch: &mut Batch, sets: &mut RapierSets, to: &mut Dest
     let fluid_moves = !batch.flows.is_empty() || !batch.turbulence.is_empty();
     for (input, own) in batch.inputs.iter().zip(&mut batch.crossings) {
         if let Some(state) = to.registry.at_mut(input.state as usize) {
-            state.crossing = Some(std::mem::take(&mut own.memory));
+            state.crossing = own.memory.take();
         }
     }
     for (i, (input, output)) in batch.inputs.iter().zip(&batch.outputs).enumerate() {

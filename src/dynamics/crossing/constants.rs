@@ -1,6 +1,6 @@
 //! What a body that is cut by boundaries of fluids needs, made once.
 
-use super::cut::Portion;
+use super::portion::Portion;
 use crate::body::{DryMass, ImmersedBody, Part};
 use crate::dynamics::constants::{BodyConstants, InertiaConstants};
 use crate::dynamics::part_constants::{BodyFrame, PartConstants, coupled_mass};

@@ -1,6 +1,7 @@
 //! What of a body is in which fluid.
 
 use super::constants::{CrossingConstants, CutBody};
+use super::portion::Portion;
 use super::transfer::FluidMass;
 use crate::hydro::{Submerged, Waterplane};
 use crate::math::spatial::Blocks;
@@ -29,19 +30,6 @@ impl Place {
             turn: level.inverse().matrix() * attitude.matrix(),
         }
     }
-}
-
-/// What of a body or part is in one fluid.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(
-    feature = "serde-serialize",
-    derive(serde::Serialize, serde::Deserialize)
-)]
-pub(crate) struct Portion {
-    /// Share of its volume.
-    pub share: f64,
-    /// Middle of what is in the fluid, less the middle of the whole: plate axes, m.
-    pub shift: Vector3<f64>,
 }
 
 /// A medium at a moment, for bodies in some of its layers.

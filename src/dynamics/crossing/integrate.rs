@@ -1,7 +1,8 @@
 //! One step of a body that boundaries of fluids cut.
 
 use super::constants::CrossingConstants;
-use super::cut::{Cut, Place, Portion, Wetted};
+use super::cut::{Cut, Place, Wetted};
+use super::portion::Portion;
 use super::reaction::{Fluids, coupled_mass};
 use super::transfer::FluidMass;
 use crate::dynamics::constants::InertiaConstants;
@@ -10,7 +11,7 @@ use crate::dynamics::integrator::Integrator;
 use crate::dynamics::load::Load;
 use crate::dynamics::locked::Locks;
 use crate::dynamics::parts::PartNow;
-use crate::math::spatial::{Blocks, Wrench};
+use crate::math::spatial::{Blocks, Wrench, norm};
 use rapier3d::na::{Rotation3, UnitQuaternion, Vector3};
 
 /// Substeps that a crossing alone asks for at most: what goes under faster is an impact.
@@ -18,6 +19,8 @@ const MOST_SUBSTEPS: f64 = 8.0;
 /// Damping of heave by the waves that a body makes, over the critical one: of a half sunk sphere at its own frequency
 /// (Hulme, *J. Fluid Mech.* 121, 443 (1982)).
 const RADIATION: f64 = 0.1;
+/// Share of its height that a body moves by in a step that is looked at again.
+const LIVELY: f64 = 0.05;
 /// Share of its height that a body shall move up or down in a substep.
 const TRAVEL: f64 = 0.5;
 
@@ -100,7 +103,8 @@ impl CrossingStep<'_> {
             let load = self.load(&wetted, &place, gravity, up, portions);
             let inertia = self.inertia(&wetted.mass);
             if first.is_none() {
-                energy = self.hold_energy(&wetted, &place, gravity, motion);
+                let before = self.energy_before;
+                energy = self.hold_energy(before, &wetted, &place, gravity, motion);
                 first_load = self.act(&load, motion);
                 first_height = height;
                 let wanted = substeps(&inertia, motion, &load, self.dt, &self.integrator);
@@ -130,6 +134,23 @@ impl CrossingStep<'_> {
             done += 1.0;
         }
         keep_finite(&start, motion, self.dt);
+        // What moves far through a boundary in a step is looked at once more at its end: a stiffness that was taken where
+        // the body was is not that of where it is.
+        let moved_far = norm(&motion.displacement) > LIVELY * first_height
+            || norm(&motion.velocity.angular) * self.dt > LIVELY * first_height;
+        if self.energy_before.is_some() && moved_far {
+            let place = self.place(motion, self.dt);
+            let cut = Cut {
+                time: self.cut.time + self.dt,
+                ..self.cut
+            };
+            let wetted = cut.cut(self.constants, &place, portions);
+            let rise = (place.turn * motion.velocity.linear).y;
+            let square_of_wave = gravity * self.height(&place);
+            self.change_mass(mass, &wetted.mass, motion, rise, square_of_wave);
+            mass = Some(wetted.mass);
+            energy = self.hold_energy(Some(energy), &wetted, &place, gravity, motion);
+        }
         let dry = FluidMass::dry(self.constants.dry_mass, self.constants.dry_inertia);
         let first = first.unwrap_or_else(|| Wetted::nothing(dry));
         let [xx, xz, zz] = first.waterplane.second;
@@ -189,6 +210,7 @@ impl CrossingStep<'_> {
     /// acts on it, as much is taken from the motion.
     fn hold_energy(
         &self,
+        before: Option<f64>,
         wetted: &Wetted,
         place: &Place,
         gravity: f64,
@@ -202,7 +224,7 @@ impl CrossingStep<'_> {
         let weight = -pull.dot(&place.center) * self.constants.dry_mass;
         let potential = weight + gravity * wetted.potential;
         let energy = kinetic + potential;
-        match self.energy_before {
+        match before {
             Some(before) if energy > before && kinetic > 0.0 => {
                 let left = (kinetic - (energy - before)).max(0.0);
                 motion.velocity = motion.velocity.scaled((left / kinetic).sqrt());

@@ -21,11 +21,13 @@ mod cut;
 mod forces;
 mod hydrostatics;
 mod integrate;
+mod portion;
 mod reaction;
 mod transfer;
 
 pub(crate) use constants::CrossingConstants;
-pub(crate) use cut::{Cut, Place, Portion};
+pub(crate) use cut::{Cut, Place};
 pub use hydrostatics::Hydrostatics;
 pub(crate) use integrate::{CrossingStep, Moved};
+pub(crate) use portion::Portion;
 pub(crate) use transfer::FluidMass;

@@ -1,7 +1,7 @@
 //! The forces of several fluids on a body, in one substep.
 
 use super::constants::CrossingFluid;
-use super::cut::Portion;
+use super::portion::Portion;
 use crate::dynamics::constants::InertiaConstants;
 use crate::dynamics::load::Load;
 use crate::dynamics::parts::{PartNow, couple, fastest_decay};
