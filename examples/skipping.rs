@@ -92,7 +92,7 @@ fn least_speeds(law: ViscousLaw) -> Vec<Point> {
                 attack: attack.to_radians(),
                 spin: 65.0,
             };
-            skips(ALUMINIUM, throw, law.clone(), 2000.0) > 0
+            skips(ALUMINIUM, throw, law, 2000.0) > 0
         };
         let speed = (2..=48).map(|i| 0.25 * i as f32).find(skipping)?;
         Some((attack.into(), speed.into()))

@@ -53,6 +53,12 @@ use std::sync::Arc;
 /// multibodies read their velocities at the end of the step (under plain rapier those of one substep before).
 /// Kinematic bodies are left alone until they become dynamic.
 ///
+/// # Between fluids
+/// In a [`Medium`] of several fluids a body is in the layer that it is in, at any time, and one that a boundary cuts is
+/// moved by both: see [`Medium`]. Rapier is given the inertia of the lowest fluid that the body is in, once when it
+/// gets there; what changes while it bobs is in the force that the step hands over. A body that rests on fluids at rest
+/// may sleep. Of the turbulence it feels that of the lowest fluid. [`Immersion::hydrostatics`] reads out how it floats.
+///
 /// # Changing a body
 /// Colliders of an immersed body may be added, removed, disabled, moved, and given other shapes, densities and
 /// masses, the body other additional mass, at any time between steps: the next step moves it as what it has

@@ -263,8 +263,8 @@ mod tests {
         }
     }
 
-    /// Of a swell of 1 m and ripples, the bend is the swell's as long as the ripples hold less than a hundredth of
-    /// the variance: .1 m is just under, .102 m is over.
+    /// Of a swell of 1 m and ripples, the bend is the swell's as long as the ripples hold less than three hundredths
+    /// of the variance: .175 m is just under, .177 m is over.
     #[test]
     fn what_bends_and_what_does_not() {
         let bend = |ripple: f64| {

@@ -6,7 +6,7 @@
 //! changes in rapier while a body bobs.
 
 use super::locked_axes;
-use super::stage_data::{PartRow, SeenFlow, StepContext, StepInput, StepOutput};
+use super::stage_data::{CrossingBody, PartRow, SeenFlow, StepContext, StepInput, StepOutput};
 use super::substep_matching::Target;
 use super::workspace::{Batch, Batched};
 use crate::coupling::body_state::BodyState;
@@ -31,26 +31,6 @@ const BALANCED: f64 = 0.002;
 const SLOW: f64 = 0.01;
 /// The same where fluids move.
 const STOPPED: f64 = 0.001;
-
-/// One body of a batch that is cut.
-#[derive(Clone, Debug)]
-pub(in crate::coupling) struct CrossingBody {
-    /// The first of the layers that it may be in, and their number.
-    pub first: usize,
-    pub count: usize,
-    /// Parts times layers.
-    pub rows: usize,
-    /// Center of mass, world axes.
-    pub center: Vector,
-    /// Inertia before the step, if the body was in a fluid then.
-    pub known_mass: bool,
-    /// Whether nothing but fluids at rest acts on it.
-    pub alone: bool,
-    /// Taken from the body's state for the step, and given back with it.
-    pub memory: Option<Box<CrossingMemory>>,
-    /// Weight, buoyancy and the pressure of accelerating fluids.
-    pub load: ForceAndTorque,
-}
 
 /// The layers that a body is in.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,11 @@
 //! The first stage: which bodies a step moves, and what it has to know of them.
 
 use super::contact_mass::CloseBodies;
-use super::crossing::{self, CrossingBody};
+use super::crossing;
 use super::jointed_systems::JointedSystems;
-use super::stage_data::{Disturbance, JointAction, PartRow, SeenFlow, StepContext, StepInput};
+use super::stage_data::{
+    CrossingBody, Disturbance, JointAction, PartRow, SeenFlow, StepContext, StepInput,
+};
 use super::workspace::{Batch, Bin};
 use super::{constraint_impulse, contact_mass, friction, held_motion};
 use crate::coupling::body_state::{BodyState, FlightState, IntegratorState, NONE};

@@ -2,6 +2,8 @@
 
 use super::substep_matching::SubstepScheme;
 use crate::coupling::body_state::{FlightState, IntegratorState};
+use crate::coupling::crossing_memory::CrossingMemory;
+use crate::dynamics::ForceAndTorque;
 use crate::dynamics::Integrator;
 use crate::flow::FlowSample;
 use crate::hydro::viscous::ForceFactors;
@@ -260,4 +262,24 @@ pub(in crate::coupling) struct HeldEnd {
     pub without_joints: Real,
     /// Work of the joints, J.
     pub work: Real,
+}
+
+/// One body of a batch that is cut.
+#[derive(Clone, Debug)]
+pub(in crate::coupling) struct CrossingBody {
+    /// The first of the layers that it may be in, and their number.
+    pub first: usize,
+    pub count: usize,
+    /// Parts times layers.
+    pub rows: usize,
+    /// Center of mass, world axes.
+    pub center: Vector,
+    /// Inertia before the step, if the body was in a fluid then.
+    pub known_mass: bool,
+    /// Whether nothing but fluids at rest acts on it.
+    pub alone: bool,
+    /// Taken from the body's state for the step, and given back with it.
+    pub memory: Option<Box<CrossingMemory>>,
+    /// Weight, buoyancy and the pressure of accelerating fluids.
+    pub load: ForceAndTorque,
 }

@@ -1,11 +1,10 @@
 //! The memory that a step works in, reused from step to step.
 
 use super::contact_mass::CloseBodies;
-use super::crossing::CrossingBody;
 use super::energy_budget::JointedBodies;
 use super::mean_motion::MeanMotion;
 use super::stage_data::{
-    Disturbance, PartRow, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
+    CrossingBody, Disturbance, PartRow, SavedForces, SeenFlow, StepContext, StepInput, StepOutput,
 };
 use crate::coupling::body_state::{BodyState, IntegratorState};
 use crate::coupling::shared_constants::{ConstantsTable, Route};
