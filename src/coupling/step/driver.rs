@@ -146,8 +146,7 @@ fn run_stages(bin: Bin, parts: &mut StepParts, sets: &mut RapierSets, context: &
         return;
     }
     sample_fluid(
-        parts.environment,
-        bin.layer,
+        (parts.environment, bin.layer),
         parts.constants,
         context,
         batch,

@@ -73,8 +73,7 @@ fn energy_at(mass: &BodyMass, attitude: Rotation, linear: Vector, angular: Vecto
 /// What a jointed body has after the step, after what its joints `did`; `driven` says whether something drives
 /// its system.
 pub(super) fn measure(
-    shared: &SharedConstants,
-    mass: &BodyMass,
+    (shared, mass): (&SharedConstants, &BodyMass),
     body: &RigidBody,
     start: &HeldStart,
     number: u32,

@@ -35,8 +35,7 @@ pub(super) fn expected(
     body: &RigidBody,
     flight: &FlightState,
     user_force: Vector,
-    normal: Vector,
-    solver_mass: Real,
+    (normal, solver_mass): (Vector, Real),
     sets: &RapierSets,
 ) -> Vector {
     let dt = sets.integration_parameters.dt;

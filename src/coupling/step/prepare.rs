@@ -196,8 +196,7 @@ pub(super) fn prepare(
                 body,
                 flight,
                 force,
-                normal,
-                solver_mass,
+                (normal, solver_mass),
                 sets,
             );
             flight.constraint_impulse = impulse;

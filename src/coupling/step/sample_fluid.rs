@@ -20,8 +20,7 @@ const STRAIN_ENDS: Real = 30.0;
 /// Reads the flow at every body of a batch and adds the turbulence. Bodies where the flow is no number are
 /// added to `bad_flows`.
 pub(super) fn sample_fluid(
-    environment: &Environment,
-    layer: usize,
+    (environment, layer): (&Environment, usize),
     constants: &ConstantsTable,
     context: &StepContext,
     batch: &mut Batch,

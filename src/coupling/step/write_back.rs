@@ -409,8 +409,7 @@ pub(super) fn finish(
         if !(start.flies && did.impulse == Vector::ZERO) {
             let (_, kind) = workspace.jointed.systems.system(start.system);
             let end = energy_budget::measure(
-                shared,
-                &with_fluid,
+                (shared, &with_fluid),
                 body,
                 start,
                 saved.held,

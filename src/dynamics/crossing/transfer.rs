@@ -70,7 +70,7 @@ impl FluidMass {
     }
 
     /// As a 6×6 matrix in other axes, which `axes` maps these to.
-    pub fn to_matrix6(&self, axes: &Rotation3<f64>) -> Matrix6<f64> {
+    pub fn to_matrix6(self, axes: &Rotation3<f64>) -> Matrix6<f64> {
         AddedMass {
             linear: self.linear,
             coupling: self.coupling,
