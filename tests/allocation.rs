@@ -4,12 +4,15 @@
 //! growth is what remains, the same as for a loop that only touches the bodies.
 
 use rapier3d_immersed::flow::{Flow, Uniform};
+use rapier3d_immersed::free_surface::{Sea, Waves};
 use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{Key, MotionPath, WindResponse};
 use rapier3d_immersed::playback::{Drive, MotionPlayer, MotionPlayers};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::turbulence::{Turbulence, TurbulenceState};
-use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Part, RapierSets};
+use rapier3d_immersed::{
+    Fluid, HydroProperties, ImmersedBody, Immersion, Medium, Part, RapierSets,
+};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -63,6 +66,43 @@ fn steps_allocate_nothing() {
     for kinematic in [true, false] {
         players_allocate_nothing(kinematic);
     }
+    for waves in [false, true] {
+        floating_allocates_nothing(waves);
+    }
+}
+
+/// Crates that bob, on still water and on a sea.
+fn floating_allocates_nothing(waves: bool) {
+    let mut world = PhysicsWorld::new();
+    let crates: Vec<_> = (0..100)
+        .map(|i| {
+            let at = Vector::new(i as Real * 5.0, 0.2, 0.0);
+            let body = RigidBodyBuilder::dynamic().translation(at).rotation(at);
+            let shape = ColliderBuilder::cuboid(0.5, 0.4, 0.6).density(400.0);
+            world.insert(body, shape).0
+        })
+        .collect();
+    let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, crates[0]).unwrap();
+    let mut medium = Medium::layered(Fluid::AIR, Fluid::WATER);
+    if waves {
+        medium = medium.with_surface(Waves::sea(&Sea::default()).unwrap());
+    }
+    let mut immersion = Immersion::new(medium);
+    immersion.insert_all(crates.iter().copied(), hydro);
+    for _ in 0..60 {
+        immersion.step(&mut world);
+    }
+    let (mut ours, mut least) = (0, 0);
+    for _ in 0..60 {
+        least += touching(&mut world, &crates);
+        ours += allocations(|| immersion.before_step(&mut RapierSets::of(&mut world)));
+        world.step();
+        ours += allocations(|| immersion.after_step(&mut RapierSets::of(&mut world)));
+    }
+    assert!(
+        (2 * least..=2 * least + 2).contains(&ours),
+        "{waves}: {ours} {least}"
+    );
 }
 
 /// Players in wind, with contacts looked for.

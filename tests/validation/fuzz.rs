@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// Loads what is left of `value` after each change of its bytes, and lets `check` use it. The number that
 /// was refused, and that was loaded.
-fn fuzz<T: Serialize + DeserializeOwned>(value: &T, check: impl Fn(T)) -> (usize, usize) {
+pub fn fuzz<T: Serialize + DeserializeOwned>(value: &T, check: impl Fn(T)) -> (usize, usize) {
     let good = postcard::to_stdvec(value).unwrap();
     check(postcard::from_bytes(&good).unwrap());
     let (mut refused, mut loaded) = (0, 0);
@@ -43,7 +43,7 @@ fn leaf() -> ColliderBuilder {
     ColliderBuilder::cuboid(0.0365, 0.000_15, 0.021).density(300.0)
 }
 
-fn assert_finite(world: &PhysicsWorld) {
+pub fn assert_finite(world: &PhysicsWorld) {
     for (_, body) in world.bodies.iter() {
         let numbers = [body.translation(), body.linvel(), body.angvel()];
         assert!(numbers.iter().all(|v| v.is_finite()), "{body:?}");

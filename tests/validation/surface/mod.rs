@@ -4,6 +4,7 @@ mod changed;
 mod energy;
 mod exact;
 mod layers;
+mod repeats;
 mod together;
 mod waves;
 
