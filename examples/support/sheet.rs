@@ -24,6 +24,29 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// A view of all that moves, from aside and a little above.
+    pub fn overview(recordings: &[&Recording]) -> Self {
+        let frames = || recordings.iter().flat_map(|recording| &recording.frames);
+        // The first is complete, a share of the others is enough.
+        let places = || frames().step_by(8).flatten().map(|(position, _)| position);
+        let range = |axis: usize| {
+            let mut values: Vec<f64> = places().map(|p| p[axis]).collect();
+            values.sort_by(f64::total_cmp);
+            // Those few that roll or blow away are not worth a view ten times as wide.
+            let at = |share: f64| values.get((share * values.len() as f64) as usize).copied();
+            (at(0.02).unwrap_or(0.0), at(0.98).unwrap_or(0.0))
+        };
+        let [x, y, z] = [0, 1, 2].map(range);
+        let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
+        let size = (x.1 - x.0).hypot(z.1 - z.0).hypot(y.1 - y.0).max(0.1);
+        let target = Vec3::new(middle(x), middle(y), middle(z));
+        Self {
+            eye: target + Vec3::new(0.75, 0.4, 1.9).normalize() * (1.7 * size),
+            target,
+            field_of_view: 0.66,
+        }
+    }
+
     /// Pixel coordinates of a point in front of the camera.
     fn project(&self, point: &Vec3, size: (u32, u32)) -> [f64; 2] {
         let forward = (self.target - self.eye).normalize();
@@ -39,12 +62,12 @@ impl Camera {
 }
 
 /// Direction toward the light.
-fn light() -> Vec3 {
+pub fn light() -> Vec3 {
     Vec3::new(-0.35, 1.0, 0.3).normalize()
 }
 
 /// Where the shadow of a point falls on the floor.
-fn shadow(point: &Vec3) -> Vec3 {
+pub fn shadow(point: &Vec3) -> Vec3 {
     point - light() * (point.y.max(0.0) / light().y)
 }
 
@@ -109,7 +132,7 @@ impl Face {
 }
 
 /// sRGB of a linear colour under a light.
-fn display(color: [f32; 3], brightness: f64) -> RGBColor {
+pub fn display(color: [f32; 3], brightness: f64) -> RGBColor {
     let [r, g, b] = color.map(|x| {
         let linear = (f64::from(x) * brightness).clamp(0.0, 1.0);
         (255.0 * linear.powf(1.0 / 2.2)) as u8
@@ -248,7 +271,7 @@ impl Canvas<'_, '_> {
 }
 
 /// The part of a polygon where `inside` is not negative (Sutherland & Hodgman 1974).
-fn clipped<P: Clone>(
+pub fn clipped<P: Clone>(
     polygon: &[P],
     inside: impl Fn(&P) -> f64,
     between: impl Fn(&P, &P, f64) -> P,

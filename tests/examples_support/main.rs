@@ -8,4 +8,5 @@ mod animation;
 mod falls;
 mod leaves;
 mod meshes;
+mod pages;
 mod specimens;
