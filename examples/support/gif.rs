@@ -3,18 +3,19 @@
 use super::raster::{Rgb, picture};
 use super::recording::Recording;
 use super::scene::Scene;
-use super::sheet::Camera;
-use color_quant::NeuQuant;
+use super::sheet::{Camera, bounds};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
-use std::collections::HashSet;
 
 /// Size of one recording's picture, pixels.
-const SIZE: [usize; 2] = [220, 300];
+const SIZE: [usize; 2] = [236, 340];
 /// Pictures per second of the run, and the longest part of it that is shown, s.
-const RATE: f64 = 12.0;
+const RATE: f64 = 15.0;
 const LONGEST: f64 = 5.0;
 /// The last picture stays, 1/100 s.
 const PAUSE: u16 = 150;
+
+/// What is between two pictures.
+const GAP: [Rgb; 4] = [[255; 3]; 4];
 
 /// The index of what is as in the picture before.
 const SAME: u8 = 255;
@@ -24,7 +25,7 @@ const SAME: u8 = 255;
 /// # Errors
 /// Those of the encoder, for sizes beyond its format.
 pub fn animation(scene: &Scene, runs: &[&Recording]) -> Result<Vec<u8>, EncodingError> {
-    let camera = Camera::overview(runs);
+    let camera = Camera::overview(&bounds(runs));
     let until = runs.iter().filter_map(|run| run.times.last().copied());
     let until = until.fold(LONGEST, f64::min);
     let count = (until * RATE) as usize + 1;
@@ -39,7 +40,7 @@ pub fn animation(scene: &Scene, runs: &[&Recording]) -> Result<Vec<u8>, Encoding
         })
         .collect();
     let palette = Palette::of(&pictures);
-    let (width, height) = (SIZE[0] * runs.len(), SIZE[1]);
+    let (width, height) = (pictures[0].len() / SIZE[1], SIZE[1]);
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width as u16, height as u16, &palette.colors)?;
     encoder.set_repeat(Repeat::Infinite)?;
@@ -71,14 +72,12 @@ pub fn animation(scene: &Scene, runs: &[&Recording]) -> Result<Vec<u8>, Encoding
 
 /// Pictures of [`SIZE`], left to right.
 fn beside(pictures: &[Vec<Rgb>]) -> Vec<Rgb> {
-    let rows = (0..SIZE[1]).map(|row| row * SIZE[0]..(row + 1) * SIZE[0]);
-    rows.flat_map(|row| {
-        pictures
-            .iter()
-            .flat_map(move |picture| &picture[row.clone()])
-    })
-    .copied()
-    .collect()
+    let row = |row: usize| {
+        let of = |picture: &Vec<Rgb>| picture[row * SIZE[0]..(row + 1) * SIZE[0]].to_vec();
+        let parts: Vec<Vec<Rgb>> = pictures.iter().map(of).collect();
+        parts.join(&GAP[..])
+    };
+    (0..SIZE[1]).flat_map(row).collect()
 }
 
 /// Five bits per channel: what pictures are told apart by.
@@ -94,23 +93,34 @@ struct Palette {
 }
 
 impl Palette {
+    /// The means of the most frequent coarse colours: grounds and walls, which fill most of the pictures, are exact.
     fn of(pictures: &[Vec<Rgb>]) -> Self {
-        // Once each, so that small bright things count as much as the floor.
-        let used: HashSet<usize> = pictures.iter().flatten().map(|c| coarse(*c)).collect();
-        let full = |coarse: usize| {
-            let channel = |shift: usize| ((coarse >> shift & 31) * 255 / 31) as u8;
-            [channel(10), channel(5), channel(0), 255]
-        };
-        let mut used: Vec<usize> = used.into_iter().collect();
-        used.sort_unstable();
-        let seen: Vec<u8> = used.iter().flat_map(|c| full(*c)).collect();
-        let network = NeuQuant::new(1, 255, &seen);
-        let mut indices = vec![0; 1 << 15];
-        for color in used {
-            indices[color] = network.index_of(&full(color)) as u8;
+        let mut sums = vec![([0_u64; 3], 0_u64); 1 << 15];
+        for color in pictures.iter().flatten() {
+            let (sum, count) = &mut sums[coarse(*color)];
+            for (sum, x) in sum.iter_mut().zip(color) {
+                *sum += u64::from(*x);
+            }
+            *count += 1;
         }
-        let mut colors = network.color_map_rgb();
-        colors.extend([0; 3]);
+        let used = (0..sums.len()).filter(|coarse| sums[*coarse].1 > 0);
+        let mut means: Vec<(usize, Rgb)> = used
+            .map(|coarse| (coarse, sums[coarse].0.map(|x| (x / sums[coarse].1) as u8)))
+            .collect();
+        means.sort_by_key(|(coarse, _)| std::cmp::Reverse(sums[*coarse].1));
+        let chosen = &means[..means.len().min(usize::from(SAME))];
+        let apart = |a: &Rgb, b: &Rgb| {
+            (0..3)
+                .map(|k| u32::from(a[k].abs_diff(b[k])).pow(2))
+                .sum::<u32>()
+        };
+        let mut indices = vec![0; sums.len()];
+        for (coarse, mean) in &means {
+            let nearest = (0..chosen.len()).min_by_key(|i| apart(&chosen[*i].1, mean));
+            indices[*coarse] = nearest.unwrap_or(0) as u8;
+        }
+        let mut colors: Vec<u8> = chosen.iter().flat_map(|(_, mean)| *mean).collect();
+        colors.resize(3 * 256, 0);
         Self { colors, indices }
     }
 

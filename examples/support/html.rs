@@ -7,7 +7,7 @@
 
 use super::recording::{COMPONENTS, Recording};
 use super::scene::{Look, Scene, pose_parts};
-use super::sheet::{Camera, light};
+use super::sheet::{Camera, bounds, light};
 use super::{Quat, Vec3};
 use base64::{Engine, prelude::BASE64_STANDARD};
 use rapier3d_immersed::geometry::Surface;
@@ -103,13 +103,15 @@ pub fn page(title: &str, scene: &Scene, runs: &[(&str, &Recording)]) -> String {
 
     let times = |key: usize| recordings.first().and_then(|run| run.times.get(key));
     let interval = times(stride).or(times(recorded.saturating_sub(1)));
-    let camera = Camera::overview(&recordings);
+    let bounds = bounds(&recordings);
+    let camera = Camera::overview(&bounds);
     let header = json!({
         "title": title,
         "frames": keys().count(),
         "interval": interval,
         "low": range.low.as_slice(),
         "size": range.size.as_slice(),
+        "bounds": bounds.map(|corner| [corner.x, corner.y, corner.z]),
         "gravity": [scene.world.gravity.x, scene.world.gravity.y, scene.world.gravity.z],
         "components": felt.iter().map(|i| COMPONENTS[*i]).collect::<Vec<_>>(),
         "mostWeights": MOST_WEIGHTS,
@@ -224,21 +226,41 @@ impl Block {
 
     /// Index of a look's mesh, which equal ones share.
     fn mesh(&mut self, look: &Look) -> usize {
-        let solid = &look.solid;
-        if let Some(known) = self.known.get(&Arc::as_ptr(solid)) {
+        let solid = Arc::as_ptr(&look.solid);
+        if let Some(known) = self.known.get(&solid) {
             return *known;
         }
-        let vertices = solid.vertices().iter().flat_map(|v| [v.x, v.y, v.z]);
-        let at = self.add(vertices.map(|x| (x as f32).to_le_bytes()));
-        let triangles = solid.triangles();
-        let indices = self.add(triangles.iter().flatten().map(|i| i.to_le_bytes()));
-        self.meshes.push(json!({
-            "vertices": at,
-            "vertexCount": solid.vertices().len(),
-            "indices": indices,
-            "indexCount": 3 * triangles.len(),
-        }));
-        self.known.insert(Arc::as_ptr(solid), self.meshes.len() - 1);
+        let mut mesh = self.triangles(look.solid.vertices(), look.solid.triangles());
+        let (vertices, triangles) = fans(&look.faces);
+        if (1..look.solid.triangles().len()).contains(&triangles.len()) {
+            mesh["outline"] = self.triangles(&vertices, &triangles);
+        }
+        self.meshes.push(mesh);
+        self.known.insert(solid, self.meshes.len() - 1);
         self.meshes.len() - 1
     }
+
+    fn triangles(&mut self, vertices: &[Vec3], triangles: &[[u32; 3]]) -> Value {
+        let words = vertices.iter().flat_map(|v| [v.x, v.y, v.z]);
+        let at = self.add(words.map(|x| (x as f32).to_le_bytes()));
+        let indices = self.add(triangles.iter().flatten().map(|i| i.to_le_bytes()));
+        json!({
+            "vertices": at,
+            "vertexCount": vertices.len(),
+            "indices": indices,
+            "indexCount": 3 * triangles.len(),
+        })
+    }
+}
+
+/// Polygons as triangles about their middles: what shadows are made of, and small pictures.
+fn fans(polygons: &[Vec<Vec3>]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    for polygon in polygons {
+        let (first, count) = (vertices.len() as u32 + 1, polygon.len() as u32);
+        vertices.push(polygon.iter().sum::<Vec3>() / f64::from(count));
+        vertices.extend(polygon);
+        triangles.extend((0..count).map(|i| [first - 1, first + i, first + (i + 1) % count]));
+    }
+    (vertices, triangles)
 }

@@ -24,24 +24,12 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A view of all that moves, from aside and a little above.
-    pub fn overview(recordings: &[&Recording]) -> Self {
-        let frames = || recordings.iter().flat_map(|recording| &recording.frames);
-        // The first is complete, a share of the others is enough.
-        let places = || frames().step_by(8).flatten().map(|(position, _)| position);
-        let range = |axis: usize| {
-            let mut values: Vec<f64> = places().map(|p| p[axis]).collect();
-            values.sort_by(f64::total_cmp);
-            // Those few that roll or blow away are not worth a view ten times as wide.
-            let at = |share: f64| values.get((share * values.len() as f64) as usize).copied();
-            (at(0.02).unwrap_or(0.0), at(0.98).unwrap_or(0.0))
-        };
-        let [x, y, z] = [0, 1, 2].map(range);
-        let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
-        let size = (x.1 - x.0).hypot(z.1 - z.0).hypot(y.1 - y.0).max(0.1);
-        let target = Vec3::new(middle(x), middle(y), middle(z));
+    /// A view of what moves between two corners of a box, from aside and a little above.
+    pub fn overview([low, high]: &[Vec3; 2]) -> Self {
+        let target = 0.5 * (low + high);
+        let distance = 1.5 * (high - low).norm().max(0.1);
         Self {
-            eye: target + Vec3::new(0.75, 0.4, 1.9).normalize() * (1.7 * size),
+            eye: target + Vec3::new(0.75, 0.4, 1.9).normalize() * distance,
             target,
             field_of_view: 0.66,
         }
@@ -59,6 +47,26 @@ impl Camera {
         let y = 0.5 * f64::from(size.1) - focal * d.dot(&up) / depth;
         [x, y]
     }
+}
+
+/// Two corners of a box in which nearly everything is nearly always: those few pieces that roll or blow away are not worth
+/// a view ten times as wide.
+pub fn bounds(recordings: &[&Recording]) -> [Vec3; 2] {
+    let frames = recordings.iter().flat_map(|recording| &recording.frames);
+    let places: Vec<&Vec3> = frames
+        .step_by(8)
+        .flatten()
+        .map(|(place, _)| place)
+        .collect();
+    let sorted = [0, 1, 2].map(|axis| {
+        let mut values: Vec<f64> = places.iter().map(|place| place[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    });
+    [0.02, 0.98].map(|share| {
+        let at = (share * places.len() as f64) as usize;
+        Vec3::from_fn(|axis, _| sorted[axis].get(at).copied().unwrap_or(0.0))
+    })
 }
 
 /// Direction toward the light.

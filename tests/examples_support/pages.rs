@@ -231,9 +231,9 @@ fn the_gif_shows_the_run() {
         let colors = frame.buffer.iter().filter(|index| **index != 255);
         changed.push(colors.count());
     }
-    // Twelve pictures per second; all but the last add up to the run's half second.
-    assert_eq!(delays.len(), 7);
-    assert_eq!(delays[..6].iter().sum::<u16>(), 50);
+    // Fifteen pictures per second, the last of 7/15 s.
+    assert_eq!(delays.len(), 8);
+    assert_eq!(delays[..7].iter().sum::<u16>(), 47);
     assert_eq!(changed[0], usize::from(size.0) * usize::from(size.1));
     assert!(
         changed[1..]

@@ -1,4 +1,4 @@
-// Viewports, time, controls.
+// Viewports, time, and what mouse, fingers and keys do.
 
 const state = { time: 0, playing: true, changed: true };
 const layout = element("layout");
@@ -16,15 +16,20 @@ function rects() {
     : { run, x: 0, y: i * height / count, width, height: height / count });
 }
 
+/** Gives a canvas so many pixels per pixel of the page. */
+function fit(canvas, scale) {
+  const [width, height] = [innerWidth, innerHeight].map(x => Math.round(x * scale));
+  if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+}
+
 function draw() {
-  const scale = Math.min(devicePixelRatio, 2), [width, height] = [innerWidth, innerHeight].map(x => Math.round(x * scale));
-  for (const canvas of [scene, overlay]) {
-    if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
-  }
+  const sharp = Math.min(devicePixelRatio, 2), scale = sharp * coarseness;
+  fit(overlay, sharp);
+  fit(scene, scale);
   if (picked >= 0 && element("follow").checked) view.target = place(shown()[0], state.time, picked);
   gl.clearColor(0.925, 0.941, 0.953, 1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
-  paint.setTransform(scale, 0, 0, scale, 0, 0);
+  paint.setTransform(sharp, 0, 0, sharp, 0, 0);
   paint.clearRect(0, 0, innerWidth, innerHeight);
   for (const rect of rects()) {
     const camera = cameraOf(rect);
@@ -56,8 +61,11 @@ const viewer = window.viewer = { drawn: 0, firstFrame: null, state, header, runs
   get picked() { return picked; },
   pick: body => { picked = body; state.changed = true; } };
 
-let before = performance.now();
+// Where frames take long, as on processors without graphics, bodies are drawn with fewer pixels; lines and text are not.
+let coarseness = 1, pace = 16, before = performance.now();
 function tick(now) {
+  pace += 0.1 * (now - before - pace);
+  if (pace > 50 && coarseness > 0.5) [coarseness, pace] = [0.7 * coarseness, 16];
   if (state.playing) {
     state.time += Math.max(0, Math.min(now - before, 200)) / 1e3 * element("speed").value;
     if (state.time > duration) state.time = 0;

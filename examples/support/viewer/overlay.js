@@ -1,4 +1,4 @@
-// Labels, paths and arrows over it.
+// Labels, paths and arrows, which are drawn over the scene in two dimensions.
 
 let picked = -1;
 

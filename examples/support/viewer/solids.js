@@ -1,7 +1,10 @@
-// Drawing in space.
+// Drawing in space: WebGL 2, one call for all bodies of a shape.
 
 const scene = element("scene"), overlay = element("overlay"), paint = overlay.getContext("2d");
-const gl = scene.getContext("webgl2", { stencil: true });
+// Smooth edges are dear where a processor draws them.
+const wanted = { alpha: false, stencil: true };
+const gl = scene.getContext("webgl2", { ...wanted, failIfMajorPerformanceCaveat: true })
+  ?? scene.getContext("webgl2", { ...wanted, antialias: false });
 if (!gl) {
   element("bar").textContent = "This page needs WebGL 2, which this browser does not have or has switched off.";
   throw new Error("no WebGL 2");
@@ -34,22 +37,22 @@ out vec3 world, tint;
 out float shade;
 void main() {
   world = place + vertex + 2.0 * cross(turn.xyz, cross(turn.xyz, vertex) + turn.w * vertex);
-  tint = color;
+  tint = pow(color, vec3(1.0 / 2.2));
   shade = strength / (1.0 + 4.0 * max(place.y - ground, 0.0));
   if (strength > 0.0) world -= light * (max(world.y - ground, 0.0) / light.y);
   gl_Position = camera * vec4(world, 1.0);
 }`, `
 in vec3 world, tint;
 in float shade;
-uniform vec3 light, eye;
+uniform vec3 light;
 uniform float strength;
 out vec4 pixel;
 void main() {
   if (strength > 0.0) { pixel = vec4(0.16, 0.12, 0.08, shade); return; }
+  // Triangles are flat; derivatives along the screen make a normal that faces the eye.
   vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
-  if (dot(normal, eye - world) < 0.0) normal = -normal;
   float bright = 0.45 + 0.35 * max(dot(normal, light), 0.0) + 0.2 * abs(normal.y);
-  pixel = vec4(pow(tint * bright, vec3(1.0 / 2.2)), 1.0);
+  pixel = vec4(tint * pow(bright, 1.0 / 2.2), 1.0);
 }`);
 const lines = program(`
 layout(location = 0) in vec3 vertex;
@@ -64,7 +67,7 @@ function buffer(target, data, usage = gl.STATIC_DRAW) {
   gl.bufferData(target, data, usage);
   return made;
 }
-const meshes = header.meshes.map(mesh => {
+function uploaded(mesh) {
   const vertices = new Float32Array(bytes.buffer, mesh.vertices, 3 * mesh.vertexCount);
   let radius = 0;
   for (let i = 0; i < vertices.length; i += 3) radius = Math.max(radius, Math.hypot(...vertices.subarray(i, i + 3)));
@@ -73,8 +76,11 @@ const meshes = header.meshes.map(mesh => {
     count: mesh.indexCount,
     vertices: buffer(gl.ARRAY_BUFFER, vertices),
     indices: buffer(gl.ELEMENT_ARRAY_BUFFER, new Uint32Array(bytes.buffer, mesh.indices, mesh.indexCount)),
+    // Few triangles that do for shadows and from afar.
+    outline: mesh.outline ? uploaded(mesh.outline) : null,
   };
-});
+}
+const meshes = header.meshes.map(uploaded);
 
 /** What shares a mesh is drawn by one call; an instance is x, y, z, a quaternion and a colour. */
 const WORDS = 10;
@@ -82,31 +88,39 @@ function instances(things) {
   return meshes.flatMap((mesh, index) => {
     const members = things.flatMap((thing, i) => thing.mesh === index ? [i] : []);
     if (members.length === 0) return [];
-    const data = new Float32Array(WORDS * members.length), array = gl.createVertexArray();
+    const data = new Float32Array(WORDS * members.length);
     members.forEach((i, k) => {
       const { position, turn, color } = things[i];
       data.set([...(position ?? [0, 0, 0]), ...(turn ?? [0, 0, 0, 1]), ...color], WORDS * k);
     });
-    gl.bindVertexArray(array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, mesh.vertices);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
     const own = buffer(gl.ARRAY_BUFFER, data, gl.DYNAMIC_DRAW);
-    [[1, 3, 0], [2, 4, 3], [3, 3, 7]].forEach(([location, size, from]) => {
-      gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, size, gl.FLOAT, false, 4 * WORDS, 4 * from);
-      gl.vertexAttribDivisor(location, 1);
-    });
-    return [{ mesh, members, data, own, array }];
+    return [{ mesh, members, data, own, full: arrayOf(mesh, own), outline: arrayOf(mesh.outline ?? mesh, own) }];
   });
+}
+
+function arrayOf(mesh, own) {
+  const array = gl.createVertexArray();
+  gl.bindVertexArray(array);
+  gl.bindBuffer(gl.ARRAY_BUFFER, mesh.vertices);
+  gl.enableVertexAttribArray(0);
+  gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
+  gl.bindBuffer(gl.ARRAY_BUFFER, own);
+  [[1, 3, 0], [2, 4, 3], [3, 3, 7]].forEach(([location, size, from]) => {
+    gl.enableVertexAttribArray(location);
+    gl.vertexAttribPointer(location, size, gl.FLOAT, false, 4 * WORDS, 4 * from);
+    gl.vertexAttribDivisor(location, 1);
+  });
+  return { array, count: mesh.count };
 }
 const floor = instances(header.fixed.slice(0, 1)), standing = instances(header.fixed.slice(1)), falling = instances(header.bodies);
 
-function drawInstances(groups) {
+/** Draws groups in full, or as outlines where `smallest` (m) is more than a body's radius. */
+function drawInstances(groups, smallest = 0) {
   for (const group of groups) {
-    gl.bindVertexArray(group.array);
-    gl.drawElementsInstanced(gl.TRIANGLES, group.mesh.count, gl.UNSIGNED_INT, 0, group.members.length);
+    const { array, count } = group.mesh.radius < smallest ? group.outline : group.full;
+    gl.bindVertexArray(array);
+    gl.drawElementsInstanced(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0, group.members.length);
   }
 }
 
@@ -123,13 +137,14 @@ function moveTo(run, time) {
 
 // The grid spans where bodies are, by 1, 2 or 5 times a power of ten that makes about six cells of the longer side.
 const grid = (() => {
-  const longer = Math.max(header.size[0], header.size[2], 0.5 * header.size[1], 0.1), power = 10 ** Math.floor(Math.log10(longer / 6));
+  const [low, high] = header.bounds, size = add(high, low, -1);
+  const longer = Math.max(size[0], size[2], 0.5 * size[1], 0.1), power = 10 ** Math.floor(Math.log10(longer / 6));
   const step = power * [1, 2, 5, 10].find(k => k * power >= longer / 6);
   const range = axis => {
-    const from = Math.floor(header.low[axis] / step) - 1, to = Math.ceil((header.low[axis] + header.size[axis]) / step) + 1;
+    const from = Math.floor(low[axis] / step), to = Math.ceil(high[axis] / step);
     return Array.from({ length: to - from + 1 }, (_, i) => (from + i) * step);
   };
-  const up = Math.max(1, Math.ceil((header.low[1] + header.size[1] - ground) / step));
+  const up = Math.max(1, Math.ceil((high[1] - ground) / step));
   const heights = Array.from({ length: up + 1 }, (_, i) => ground + i * step);
   return { step, x: range(0), z: range(2), heights, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
 })();
@@ -142,13 +157,15 @@ buffer(gl.ARRAY_BUFFER, new Float32Array(gridPoints));
 gl.enableVertexAttribArray(0);
 gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
 
+// Bodies of fewer pixels in diameter are drawn as their outlines: curved ones look no different.
+const FINE = 50;
+
 function drawScene(camera, rect, scale, run, time) {
   const y = scene.height - (rect.y + rect.height) * scale;
   gl.viewport(rect.x * scale, y, rect.width * scale, rect.height * scale);
   gl.useProgram(solids.made);
   gl.uniformMatrix4fv(solids.uniforms.camera, false, camera.matrix);
   gl.uniform3fv(solids.uniforms.light, header.light);
-  gl.uniform3fv(solids.uniforms.eye, camera.eye);
   gl.uniform1f(solids.uniforms.ground, ground);
   gl.uniform1f(solids.uniforms.strength, 0);
   gl.enable(gl.DEPTH_TEST);
@@ -170,7 +187,7 @@ function drawScene(camera, rect, scale, run, time) {
     gl.useProgram(solids.made);
     gl.uniform1f(solids.uniforms.strength, 0.3);
     drawInstances(standing);
-    drawInstances(falling);
+    drawInstances(falling, Infinity);
     gl.uniform1f(solids.uniforms.strength, 0);
     gl.disable(gl.STENCIL_TEST);
     gl.disable(gl.BLEND);
@@ -178,5 +195,5 @@ function drawScene(camera, rect, scale, run, time) {
   }
   gl.useProgram(solids.made);
   drawInstances(standing);
-  drawInstances(falling);
+  drawInstances(falling, FINE * view.distance * Math.tan(header.fieldOfView / 2) / Math.min(rect.width, rect.height));
 }
