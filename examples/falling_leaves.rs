@@ -184,19 +184,20 @@ fn main() {
     let path = |name: &str| options.out.join(name);
     let moving = |kind: &str| path(&format!("{}.{kind}", told.animation));
     let page = moving("html");
-    let gif = gif::animation(&scene, &takes)
-        .unwrap_or_else(|problem| cli::cannot_write(&moving("gif"), problem));
-    let files = [
+    let mut files = vec![
         (path("frames.svg"), told.frames.into_bytes()),
         (path("trajectories.svg"), told.trajectories.into_bytes()),
-        (
-            moving("html"),
-            html::page(&told.title, &scene, &runs).into(),
-        ),
+        (page.clone(), html::page(&told.title, &scene, &runs).into()),
         (moving("glb"), glb::animation(&scene, &recording)),
-        (moving("gif"), gif),
         (path("summary.json"), format!("{json:#}\n").into_bytes()),
     ];
+    // The airplane is too small to be seen in a picture of its whole flight.
+    if options.scene == SceneName::Leaves {
+        let path = moving("gif");
+        let gif = gif::animation(&scene, &takes)
+            .unwrap_or_else(|problem| cli::cannot_write(&path, problem));
+        files.push((path, gif));
+    }
     for (path, content) in &files {
         cli::write(path, content);
     }
@@ -209,7 +210,10 @@ fn main() {
         };
         println!("{}, {seconds} s in {fluid}", told.title);
         print!("{}", told.table);
-        let names = files.map(|(path, _)| path.display().to_string());
+        let names: Vec<String> = files
+            .iter()
+            .map(|(path, _)| path.display().to_string())
+            .collect();
         println!("wrote {}", names.join(", "));
     }
     if options.open {

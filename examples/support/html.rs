@@ -63,6 +63,9 @@ pub fn page(title: &str, scene: &Scene, runs: &[(&str, &Recording)]) -> String {
         .collect();
 
     let recordings: Vec<&Recording> = runs.iter().map(|(_, recording)| *recording).collect();
+    for frame in recordings.iter().flat_map(|recording| &recording.frames) {
+        assert_eq!(frame.len(), bodies.len(), "a recording of another scene");
+    }
     let felt: Vec<usize> = (0..COMPONENTS.len())
         .filter(|component| is_felt(&recordings, &weights, *component))
         .collect();
@@ -231,7 +234,7 @@ impl Block {
             return *known;
         }
         let mut mesh = self.triangles(look.solid.vertices(), look.solid.triangles());
-        let (vertices, triangles) = fans(&look.faces);
+        let (vertices, triangles) = look.outline();
         if (1..look.solid.triangles().len()).contains(&triangles.len()) {
             mesh["outline"] = self.triangles(&vertices, &triangles);
         }
@@ -251,16 +254,4 @@ impl Block {
             "indexCount": 3 * triangles.len(),
         })
     }
-}
-
-/// Polygons as triangles about their middles: what shadows are made of, and small pictures.
-fn fans(polygons: &[Vec<Vec3>]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
-    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
-    for polygon in polygons {
-        let (first, count) = (vertices.len() as u32 + 1, polygon.len() as u32);
-        vertices.push(polygon.iter().sum::<Vec3>() / f64::from(count));
-        vertices.extend(polygon);
-        triangles.extend((0..count).map(|i| [first - 1, first + i, first + (i + 1) % count]));
-    }
-    (vertices, triangles)
 }

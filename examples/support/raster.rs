@@ -41,14 +41,15 @@ impl View {
             let [x, y, z] = self.axes.map(|axis| axis.dot(&(p - self.eye)));
             Vec3::new(x, y, z)
         });
-        let ahead = clipped(&seen, |p| p.z - NEAR, |a, b, s| a + (b - a) * s);
         let [middle_x, middle_y] = self.size.map(|n| 0.5 * n as f64);
-        let points: Vec<Vec3> = ahead
-            .iter()
-            .map(|p| Vec3::new(middle_x + p.x / p.z, middle_y - p.y / p.z, 1.0 / p.z))
-            .collect();
-        for i in 2..points.len() {
-            self.fill([points[0], points[i - 1], points[i]], &mut paint);
+        let point = |p: &Vec3| Vec3::new(middle_x + p.x / p.z, middle_y - p.y / p.z, 1.0 / p.z);
+        if seen.iter().all(|p| p.z > NEAR) {
+            return self.fill(seen.map(|p| point(&p)), &mut paint);
+        }
+        let ahead = clipped(&seen, |p| p.z - NEAR, |a, b, s| a + (b - a) * s);
+        for i in 2..ahead.len() {
+            let corners = [0, i - 1, i].map(|k| point(&ahead[k]));
+            self.fill(corners, &mut paint);
         }
     }
 
@@ -89,29 +90,37 @@ struct Canvas {
 
 type Place = (Vec3, Quat);
 
-fn corners<'a>(
-    look: &'a Look,
-    place: impl Fn(&Vec3) -> Vec3 + 'a,
-) -> impl Iterator<Item = [Vec3; 3]> + 'a {
-    let places: Vec<Vec3> = look.solid.vertices().iter().map(place).collect();
-    let triangles = look.solid.triangles().iter();
-    triangles.map(move |triangle| triangle.map(|i| places[i as usize]))
+/// The triangles of a look: of its polygons where it has any.
+fn corners(look: &Look, place: impl Fn(&Vec3) -> Vec3) -> Vec<[Vec3; 3]> {
+    let (vertices, triangles) = match look.faces.is_empty() {
+        true => (
+            look.solid.vertices().to_vec(),
+            look.solid.triangles().to_vec(),
+        ),
+        false => look.outline(),
+    };
+    let places: Vec<Vec3> = vertices.iter().map(place).collect();
+    let triangles = triangles.iter();
+    triangles
+        .map(|triangle| triangle.map(|i| places[i as usize]))
+        .collect()
 }
 
 impl Canvas {
     fn solid(&mut self, look: &Look, (position, turn): Place) {
         for corners in corners(look, |v| position + turn * v) {
             let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
-            let Some(normal) = normal.try_normalize(0.0) else {
-                continue;
-            };
-            if normal.dot(&(self.view.eye - corners[0])) <= 0.0 {
-                continue;
+            // Zero for a triangle without an area, which covers nothing.
+            let mut normal = normal.try_normalize(0.0).unwrap_or_default();
+            if normal.dot(&(self.view.eye - corners[0])) < 0.0 {
+                normal = -normal;
             }
-            let lit = 0.35 * normal.dot(&light()).max(0.0) + 0.2 * normal.y.abs();
-            let color = display(look.color, 0.45 + lit);
+            // Most triangles of small things cover no sample: those need no colour.
+            let mut shade = None;
             self.view.cover(&corners, |sample, near| {
                 if near > self.near[sample] {
+                    let lit = || 0.35 * normal.dot(&light()).max(0.0) + 0.2 * normal.y.abs();
+                    let color = shade.get_or_insert_with(|| display(look.color, 0.45 + lit()));
                     self.colors[sample] = [color.0, color.1, color.2];
                     self.near[sample] = near;
                 }

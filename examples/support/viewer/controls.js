@@ -58,8 +58,7 @@ function draw() {
 
 // What tests look at: frames drawn, and when the first was (ms since the page was opened).
 const viewer = window.viewer = { drawn: 0, firstFrame: null, state, header, runs, pose, rects, cameraOf, projected, place,
-  get picked() { return picked; },
-  pick: body => { picked = body; state.changed = true; } };
+  get picked() { return picked; } };
 
 // Where frames take long, as on processors without graphics, bodies are drawn with fewer pixels; lines and text are not.
 let coarseness = 1, pace = 16, before = performance.now();

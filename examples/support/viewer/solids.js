@@ -126,10 +126,10 @@ function drawInstances(groups, smallest = 0) {
 
 function moveTo(run, time) {
   for (const group of falling) {
-    group.members.forEach((body, k) => pose(run, time, body, group.data, WORDS * k));
-    if (picked >= 0) {
-      group.members.forEach((body, k) => group.data.set(body === picked ? [1, 0.8, 0] : header.bodies[body].color, WORDS * k + 7));
-    }
+    group.members.forEach((body, k) => {
+      pose(run, time, body, group.data, WORDS * k);
+      group.data.set(body === picked ? [1, 0.05, 0.4] : header.bodies[body].color, WORDS * k + 7);
+    });
     gl.bindBuffer(gl.ARRAY_BUFFER, group.own);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, group.data);
   }
