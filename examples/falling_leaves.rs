@@ -10,7 +10,8 @@
 //! ```
 //!
 //! Writes `frames.svg` (moments of the run), `trajectories.svg` (both runs, from the side and from
-//! above), `leaves.glb` (an animation for 3-D tools) and `summary.json`.
+//! above), `leaves.html` (plays in a browser; `--open` opens it), `leaves.glb` (the same for 3-D tools), `leaves.gif` and
+//! `summary.json`.
 
 mod support;
 
@@ -26,10 +27,10 @@ use std::path::PathBuf;
 use support::airplane::Flight;
 use support::cli::{self, FluidName, bad_value};
 use support::leaf::{Blade, Outline};
-use support::recording::{Recording, RunOptions, run};
+use support::recording::{Plain, Recording, RunOptions, run};
 use support::scene::{Kind, Scene};
 use support::summary::{Summary, table};
-use support::{Quat, Vec3, airplane, gallery, glb, mesh};
+use support::{Quat, Vec3, airplane, gallery, gif, glb, html, mesh};
 
 /// Leaves and confetti fall on a floor with obstacles; the same scene in plain rapier beside it.
 #[derive(Parser, Debug)]
@@ -83,6 +84,9 @@ struct Options {
     /// Folder for the files
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    /// Show the animation in the browser
+    #[arg(long)]
+    open: bool,
     /// Print the summary as one JSON object instead of a table
     #[arg(long)]
     json: bool,
@@ -147,22 +151,25 @@ fn main() {
     let run_options = RunOptions {
         seconds,
         frame_rate: options.frame_rate,
+        // They take more memory than the poses.
+        forces: frames < 1e6,
         message: "immersed",
     };
-    let recording = run(&mut scene, &run_options, |world| immersion.step(world));
+    let recording = run(&mut scene, &run_options, &mut immersion);
     report_warnings(immersion.warnings());
 
-    let plain = (!options.no_compare).then(|| {
+    let plain_run = (!options.no_compare).then(|| {
         let mut scene = build(&options, &kinds);
         let run_options = RunOptions {
+            forces: false,
             message: "plain rapier",
             ..run_options
         };
-        run(&mut scene, &run_options, PhysicsWorld::step)
+        run(&mut scene, &run_options, &mut Plain)
     });
     let told = match options.scene {
-        SceneName::Leaves => leaves_told(&scene, &recording, plain.as_ref()),
-        SceneName::Airplane => airplane_told(&scene, &recording, plain.as_ref()),
+        SceneName::Leaves => leaves_told(&scene, &recording, plain_run.as_ref()),
+        SceneName::Airplane => airplane_told(&scene, &recording, plain_run.as_ref()),
     };
 
     let (immersed, plain) = told.numbers;
@@ -171,14 +178,28 @@ fn main() {
         "immersed": immersed,
         "plain": plain,
     });
-    let files = [
-        ("frames.svg", told.frames.into_bytes()),
-        ("trajectories.svg", told.trajectories.into_bytes()),
-        (told.animation, glb::animation(&scene, &recording)),
-        ("summary.json", format!("{json:#}\n").into_bytes()),
+    let mut runs = vec![("immersed", &recording)];
+    runs.extend(plain_run.iter().map(|plain| ("plain rapier", plain)));
+    let takes: Vec<&Recording> = runs.iter().map(|(_, recording)| *recording).collect();
+    let path = |name: &str| options.out.join(name);
+    let moving = |kind: &str| path(&format!("{}.{kind}", told.animation));
+    let page = moving("html");
+    let mut files = vec![
+        (path("frames.svg"), told.frames.into_bytes()),
+        (path("trajectories.svg"), told.trajectories.into_bytes()),
+        (page.clone(), html::page(&told.title, &scene, &runs).into()),
+        (moving("glb"), glb::animation(&scene, &recording)),
+        (path("summary.json"), format!("{json:#}\n").into_bytes()),
     ];
-    for (name, content) in &files {
-        cli::write(&options.out.join(name), content);
+    // The airplane is too small to be seen in a picture of its whole flight.
+    if options.scene == SceneName::Leaves {
+        let path = moving("gif");
+        let gif = gif::animation(&scene, &takes)
+            .unwrap_or_else(|problem| cli::cannot_write(&path, problem));
+        files.push((path, gif));
+    }
+    for (path, content) in &files {
+        cli::write(path, content);
     }
     if options.json {
         println!("{json:#}");
@@ -189,8 +210,14 @@ fn main() {
         };
         println!("{}, {seconds} s in {fluid}", told.title);
         print!("{}", told.table);
-        let names = files.map(|(name, _)| options.out.join(name).display().to_string());
+        let names: Vec<String> = files
+            .iter()
+            .map(|(path, _)| path.display().to_string())
+            .collect();
         println!("wrote {}", names.join(", "));
+    }
+    if options.open {
+        cli::open(&page);
     }
 }
 
@@ -227,7 +254,7 @@ struct Told {
     numbers: (Value, Option<Value>),
     frames: String,
     trajectories: String,
-    /// Name of the animation's file.
+    /// Name of the animation's files, without their kind.
     animation: &'static str,
 }
 
@@ -240,7 +267,7 @@ fn leaves_told(scene: &Scene, recording: &Recording, plain: Option<&Recording>) 
         numbers: (summary.json(), plain_summary.map(|plain| plain.json())),
         frames: gallery::frames(scene, recording, &summary),
         trajectories: gallery::trajectories(scene, recording, plain),
-        animation: "leaves.glb",
+        animation: "leaves",
     }
 }
 
@@ -253,7 +280,7 @@ fn airplane_told(scene: &Scene, recording: &Recording, plain: Option<&Recording>
         numbers: (flight.json(), plain_flight.map(|plain| plain.json())),
         frames: airplane::frames(scene, recording, &flight),
         trajectories: airplane::path(scene, recording, &flight, plain),
-        animation: "airplane.glb",
+        animation: "airplane",
     }
 }
 

@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rapier3d_immersed::Fluid;
 use std::fmt::Display;
 use std::path::Path;
-use std::process::exit;
+use std::process::{Command, exit};
 
 /// Parses the command line. A bad value ends the program with exit code 2 and one line that names
 /// the flag; `--help` prints and ends it with 0.
@@ -46,6 +46,27 @@ pub fn write(path: &Path, content: impl AsRef<[u8]>) {
         .map_or(Ok(()), std::fs::create_dir_all)
         .and_then(|()| std::fs::write(path, content))
         .unwrap_or_else(|error| cannot_write(path, error));
+}
+
+/// Shows a file in the program that the system opens it with; where that fails, a sentence says so.
+pub fn open(path: &Path) {
+    let (opener, arguments): (&str, &[&str]) = if cfg!(target_os = "windows") {
+        // The first quoted argument of `start` is a window's title.
+        ("cmd", &["/C", "start", ""])
+    } else if cfg!(target_os = "macos") {
+        ("open", &[])
+    } else {
+        ("xdg-open", &[])
+    };
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    let outcome = Command::new(opener).args(arguments).arg(&path).status();
+    let problem = match outcome {
+        Ok(status) if status.success() => return,
+        Ok(status) => status.to_string(),
+        Err(error) => error.to_string(),
+    };
+    let path = path.display();
+    eprintln!("{opener} could not open {path} ({problem}): open it in a browser");
 }
 
 /// A finite number.

@@ -3,6 +3,7 @@
 use super::scene::{Scene, pose_parts};
 use super::{Quat, Vec3, cli, from_rapier};
 use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyHandle};
+use rapier3d_immersed::{ForceBreakdown, Immersion};
 use std::collections::HashMap;
 use std::time::Instant;
 
@@ -21,6 +22,53 @@ pub struct Fate {
     pub at_rest: bool,
 }
 
+/// What moves a world on.
+pub trait Stepper {
+    /// One step.
+    fn step(&mut self, world: &mut PhysicsWorld);
+
+    /// What the fluid does to a body; `None` without one.
+    fn forces(&self, _: &PhysicsWorld, _: RigidBodyHandle) -> Option<ForceBreakdown> {
+        None
+    }
+}
+
+impl Stepper for Immersion {
+    fn step(&mut self, world: &mut PhysicsWorld) {
+        Self::step(self, world);
+    }
+
+    fn forces(&self, world: &PhysicsWorld, body: RigidBodyHandle) -> Option<ForceBreakdown> {
+        Self::forces(self, &world.bodies, body)
+    }
+}
+
+/// Rapier without any fluid.
+pub struct Plain;
+
+impl Stepper for Plain {
+    fn step(&mut self, world: &mut PhysicsWorld) {
+        world.step();
+    }
+}
+
+/// The components of a recorded force.
+pub const COMPONENTS: [&str; 5] = ["drag", "lift", "added mass", "buoyancy", "thrust"];
+
+/// A force by its [`COMPONENTS`], N, world axes.
+pub type Forces = [[f32; 3]; COMPONENTS.len()];
+
+fn components(of: &ForceBreakdown) -> Forces {
+    [
+        of.drag.force + of.turbulence.force,
+        of.translational_lift.force + of.rotational_lift.force,
+        of.added_mass.force,
+        of.buoyancy.force,
+        of.thrust.force,
+    ]
+    .map(|force| [force.x, force.y, force.z])
+}
+
 /// Poses of all pieces at equal intervals, and what else is worth knowing of a run.
 #[derive(Clone, Debug)]
 pub struct Recording {
@@ -28,6 +76,8 @@ pub struct Recording {
     pub times: Vec<f64>,
     /// Pose of each piece's frame, for each time.
     pub frames: Vec<Vec<(Vec3, Quat)>>,
+    /// Force on each piece, for each time; empty if none were asked for.
+    pub forces: Vec<Vec<Forces>>,
     /// One for each piece.
     pub fates: Vec<Fate>,
     /// Median time of a step while pieces fall, ms (steps before half of them have landed).
@@ -45,16 +95,14 @@ pub struct RunOptions {
     pub seconds: f64,
     /// Frames recorded per second.
     pub frame_rate: f64,
+    /// Whether forces are recorded, too.
+    pub forces: bool,
     /// What the progress bar says.
     pub message: &'static str,
 }
 
-/// Steps the scene with `step` and records it.
-pub fn run(
-    scene: &mut Scene,
-    options: &RunOptions,
-    mut step: impl FnMut(&mut PhysicsWorld),
-) -> Recording {
+/// Steps the scene with `stepper` and records it.
+pub fn run(scene: &mut Scene, options: &RunOptions, stepper: &mut impl Stepper) -> Recording {
     let dt = f64::from(scene.world.integration_parameters.dt);
     let steps = (options.seconds / dt).ceil() as u64;
     let per_frame = (1.0 / (options.frame_rate * dt)).round().max(1.0) as u64;
@@ -72,6 +120,7 @@ pub fn run(
     let mut recording = Recording {
         times: Vec::new(),
         frames: Vec::new(),
+        forces: Vec::new(),
         fates: vec![Fate::default(); scene.pieces.len()],
         falling_step: 0.0,
         landed_step: 0.0,
@@ -81,10 +130,10 @@ pub fn run(
     let mut flying = scene.pieces.len();
     let bar = cli::progress(steps, options.message);
     let begin = Instant::now();
-    recording.keep(0.0, scene);
+    recording.keep(0.0, scene, stepper, options.forces);
     for count in 1..=steps {
         let start = Instant::now();
-        step(&mut scene.world);
+        stepper.step(&mut scene.world);
         let cost = start.elapsed().as_secs_f64() * 1e3;
         if 2 * flying > scene.pieces.len() {
             falling_steps.push(cost);
@@ -104,7 +153,7 @@ pub fn run(
             flying -= recording.find_landings(time, scene, &index);
         }
         if count % per_frame == 0 {
-            recording.keep(time, scene);
+            recording.keep(time, scene, stepper, options.forces);
         }
         bar.inc(1);
     }
@@ -130,11 +179,17 @@ pub fn median(mut values: Vec<f64>) -> f64 {
 }
 
 impl Recording {
-    fn keep(&mut self, time: f64, scene: &Scene) {
+    fn keep(&mut self, time: f64, scene: &Scene, stepper: &impl Stepper, with_forces: bool) {
         self.times.push(time);
-        let pieces = scene.pieces.iter();
-        let poses = pieces.map(|piece| pose_parts(scene.world.bodies[piece.handle].position()));
+        let handles = || scene.pieces.iter().map(|piece| piece.handle);
+        let poses = handles().map(|handle| pose_parts(scene.world.bodies[handle].position()));
         self.frames.push(poses.collect());
+        if with_forces {
+            // Before its first step, the fluid knows of no body.
+            let force = |handle| stepper.forces(&scene.world, handle).unwrap_or_default();
+            let forces = handles().map(|handle| components(&force(handle)));
+            self.forces.push(forces.collect());
+        }
     }
 
     /// Notes first contacts with anything that stands or has landed; returns how many.

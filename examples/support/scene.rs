@@ -26,6 +26,20 @@ pub struct Look {
     pub ball: Option<f64>,
 }
 
+impl Look {
+    /// The polygons as triangles about their middles: few that do for shadows and in small pictures.
+    pub fn outline(&self) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        for polygon in self.faces.iter() {
+            let (first, count) = (vertices.len() as u32 + 1, polygon.len() as u32);
+            vertices.push(polygon.iter().sum::<Vec3>() / f64::from(count));
+            vertices.extend(polygon);
+            triangles.extend((0..count).map(|i| [first - 1, first + i, first + (i + 1) % count]));
+        }
+        (vertices, triangles)
+    }
+}
+
 /// A kind of piece: everything that equal pieces share.
 #[derive(Clone, Debug)]
 pub struct Kind {

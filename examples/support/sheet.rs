@@ -27,6 +27,17 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// A view of what moves between two corners of a box, from aside and a little above.
+    pub fn overview([low, high]: &[Vec3; 2]) -> Self {
+        let target = 0.5 * (low + high);
+        let distance = 1.5 * (high - low).norm().max(0.1);
+        Self {
+            eye: target + Vec3::new(0.75, 0.4, 1.9).normalize() * distance,
+            target,
+            field_of_view: 0.66,
+        }
+    }
+
     /// Pixel coordinates of a point in front of the camera.
     fn project(&self, point: &Vec3, size: (u32, u32)) -> [f64; 2] {
         let forward = (self.target - self.eye).normalize();
@@ -41,13 +52,33 @@ impl Camera {
     }
 }
 
+/// Two corners of a box in which nearly everything is nearly always: those few pieces that roll or blow away are not worth
+/// a view ten times as wide.
+pub fn bounds(recordings: &[&Recording]) -> [Vec3; 2] {
+    let frames = recordings.iter().flat_map(|recording| &recording.frames);
+    let places: Vec<&Vec3> = frames
+        .step_by(8)
+        .flatten()
+        .map(|(place, _)| place)
+        .collect();
+    let sorted = [0, 1, 2].map(|axis| {
+        let mut values: Vec<f64> = places.iter().map(|place| place[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    });
+    [0.02, 0.98].map(|share| {
+        let at = (share * places.len() as f64) as usize;
+        Vec3::from_fn(|axis, _| sorted[axis].get(at).copied().unwrap_or(0.0))
+    })
+}
+
 /// Direction toward the light.
-fn light() -> Vec3 {
+pub fn light() -> Vec3 {
     Vec3::new(-0.35, 1.0, 0.3).normalize()
 }
 
 /// Where the shadow of a point falls on the floor.
-fn shadow(point: &Vec3) -> Vec3 {
+pub fn shadow(point: &Vec3) -> Vec3 {
     point - light() * (point.y.max(0.0) / light().y)
 }
 
@@ -132,7 +163,7 @@ fn divided(faces: &[Face], water: [f32; 3]) -> [Vec<Face>; 2] {
 }
 
 /// sRGB of a linear colour under a light.
-fn display(color: [f32; 3], brightness: f64) -> RGBColor {
+pub fn display(color: [f32; 3], brightness: f64) -> RGBColor {
     let [r, g, b] = color.map(|x| {
         let linear = (f64::from(x) * brightness).clamp(0.0, 1.0);
         (255.0 * linear.powf(1.0 / 2.2)) as u8
@@ -271,7 +302,7 @@ impl Canvas<'_, '_> {
 }
 
 /// The part of a polygon where `inside` is not negative (Sutherland & Hodgman 1974).
-fn clipped<P: Clone>(
+pub fn clipped<P: Clone>(
     polygon: &[P],
     inside: impl Fn(&P) -> f64,
     between: impl Fn(&P, &P, f64) -> P,

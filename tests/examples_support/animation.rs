@@ -1,7 +1,7 @@
 //! The animation file is valid glTF 2.0 and says what was recorded.
 
 use crate::support::leaf::{Blade, Outline};
-use crate::support::recording::{RunOptions, run};
+use crate::support::recording::{Plain, RunOptions, run};
 use crate::support::scene::{Kind, Scene};
 use crate::support::{Quat, Vec3, glb};
 use gltf::animation::Property;
@@ -10,7 +10,7 @@ use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
 use std::collections::HashSet;
 
 /// Three leaves of two colours that fall and turn for half a second.
-fn scene() -> Scene {
+pub fn scene() -> Scene {
     let mut scene = Scene::new(PhysicsWorld::new());
     let blade = Blade {
         outline: Outline::Ovate,
@@ -55,9 +55,10 @@ fn the_file_is_valid_and_complete() {
     let options = RunOptions {
         seconds: 0.5,
         frame_rate: 30.0,
+        forces: false,
         message: "test",
     };
-    let recording = run(&mut scene, &options, PhysicsWorld::step);
+    let recording = run(&mut scene, &options, &mut Plain);
     assert_eq!(recording.times.len(), 16);
     let bytes = glb::animation(&scene, &recording);
     assert_eq!(

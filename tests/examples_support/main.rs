@@ -21,5 +21,6 @@ mod boat;
 mod falls;
 mod leaves;
 mod meshes;
+mod pages;
 mod pond;
 mod specimens;

@@ -1,0 +1,189 @@
+// Opens a page that html.rs wrote in a headless Chromium with a software renderer, plays with it and measures it.
+//
+//     node --experimental-websocket tests/browser/check.mjs out/leaves.html [FOLDER FOR SCREENSHOTS]
+//
+// Exit code 0: everything is as it should be, or there is no Chromium (and a line says so).
+
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [page, folder] = process.argv.slice(2);
+const profile = mkdtempSync(join(tmpdir(), "viewer-"));
+const flags = ["--headless=new", "--no-sandbox", "--no-first-run", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+  "--remote-debugging-port=0", `--user-data-dir=${profile}`, "about:blank"];
+
+/** The first Chromium that starts, and the address at which it takes commands. */
+async function start() {
+  for (const name of [process.env.CHROMIUM, "chromium", "chromium-browser", "google-chrome"].filter(Boolean)) {
+    const browser = spawn(name, flags, { stdio: ["ignore", "ignore", "pipe"] });
+    const address = await new Promise(found => {
+      let told = "";
+      browser.on("error", () => found(null));
+      browser.on("exit", () => found(null));
+      browser.stderr.on("data", data => {
+        told += data;
+        const match = told.match(/DevTools listening on (ws:\S+)/);
+        if (match) found(match[1]);
+      });
+    });
+    if (address) return { browser, address };
+  }
+  return null;
+}
+
+const started = await start();
+if (!started) {
+  console.log("the page is not tested: no Chromium starts here (name one in CHROMIUM)");
+  process.exit(0);
+}
+
+const socket = new WebSocket(started.address);
+await new Promise(open => socket.addEventListener("open", open));
+let count = 0, session;
+const waiting = new Map(), complaints = [], requests = [];
+socket.addEventListener("message", ({ data }) => {
+  const { id, method, params, result, error } = JSON.parse(data);
+  if (id) waiting.get(id)(error ? Promise.reject(new Error(error.message)) : result);
+  if (method === "Runtime.exceptionThrown") complaints.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
+  if (method === "Runtime.consoleAPICalled") complaints.push(params.args.map(arg => arg.value).join(" "));
+  if (method === "Log.entryAdded") complaints.push(`${params.entry.text} ${params.entry.url ?? ""}`);
+  if (method === "Network.requestWillBeSent") requests.push(params.request.url.slice(0, 100));
+});
+const send = (method, params = {}) => new Promise(answer => {
+  waiting.set(++count, answer);
+  socket.send(JSON.stringify({ id: count, method, params, sessionId: session }));
+});
+const pause = ms => new Promise(end => setTimeout(end, ms));
+async function evaluate(expression) {
+  const { result, exceptionDetails } = await send("Runtime.evaluate", { expression, returnByValue: true });
+  assert(!exceptionDetails, `${expression}: ${exceptionDetails?.exception?.description}`);
+  return result.value;
+}
+async function screenshot(name) {
+  await pause(400);
+  if (!folder) return;
+  mkdirSync(folder, { recursive: true });
+  const { data } = await send("Page.captureScreenshot", { format: "png" });
+  writeFileSync(join(folder, `${name}.png`), Buffer.from(data, "base64"));
+}
+const mouse = (type, [x, y], more = {}) => send("Input.dispatchMouseEvent", { type, x, y, ...more });
+async function click(at) {
+  for (const type of ["mousePressed", "mouseReleased"]) await mouse(type, at, { button: "left", clickCount: 1 });
+}
+async function key(name, text) {
+  for (const type of ["keyDown", "keyUp"]) await send("Input.dispatchKeyEvent", { type, key: name, text: type === "keyDown" ? text : undefined });
+}
+const size = (width, height) => send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
+const seek = time => evaluate(`viewer.state.playing = false; viewer.state.time = ${time}; viewer.state.changed = true`);
+const eye = () => evaluate("viewer.cameraOf(viewer.rects()[0]).eye");
+
+let failure = null;
+try {
+  const { targetId } = await send("Target.createTarget", { url: "about:blank" });
+  ({ sessionId: session } = await send("Target.attachToTarget", { targetId, flatten: true }));
+  for (const domain of ["Page", "Runtime", "Log", "Network"]) await send(`${domain}.enable`);
+  await size(1280, 720);
+  const first = [];
+  // The least of three: whatever else the machine does at the time is not the page's.
+  for (let load = 0; load < 3; load++) {
+    await send("Page.navigate", { url: "about:blank" });
+    await send("Page.navigate", { url: pathToFileURL(resolve(page)).href });
+    let time = null;
+    for (let tries = 0; tries < 400 && time === null && complaints.length === 0; tries++) {
+      await pause(50);
+      time = await evaluate("window.viewer?.firstFrame ?? null");
+    }
+    assert.deepEqual(complaints, []);
+    assert.notEqual(time, null, "a frame is drawn");
+    first.push(time);
+  }
+  const bodies = await evaluate("viewer.header.bodies.length");
+  const times = first.map(time => time.toFixed(0)).join(", ");
+  console.log(`${bodies} bodies, ${await evaluate("viewer.runs.length")} runs: first frame after ${times} ms`);
+  assert(Math.min(...first) < 2000, "the first frame takes less than 2 s");
+
+  const rate = async what => {
+    const before = await evaluate("[viewer.drawn, performance.now()]");
+    await pause(3000);
+    const after = await evaluate("[viewer.drawn, performance.now()]");
+    const rate = 1e3 * (after[0] - before[0]) / (after[1] - before[1]);
+    console.log(`software renderer, 1280 × 720, ${what}: ${rate.toFixed(1)} frames per second`);
+    assert(rate > 0, "it goes on");
+  };
+  await rate("all runs");
+  const duration = await evaluate("(viewer.header.frames - 1) * viewer.header.interval");
+  assert(await evaluate("viewer.state.time") > 0, "it plays by itself");
+
+  await seek(0.2 * duration);
+  await screenshot("side-by-side");
+  // What has been shown does not change what is decoded: unit quaternions, and places in the box.
+  const poses = await evaluate(`viewer.runs.flatMap(run => viewer.header.bodies.map((_, body) => {
+    const out = []; viewer.pose(run, viewer.state.time, body, out); return out; }))`);
+  const { low, size: box } = await evaluate("viewer.header");
+  for (const pose of poses) {
+    assert(Math.abs(Math.hypot(...pose.slice(3)) - 1) < 1e-9);
+    for (let k = 0; k < 3; k++) assert(pose[k] >= low[k] - 1e-9 && pose[k] <= low[k] + box[k] + 1e-9);
+  }
+
+  const middle = [320, 300], start = await eye();
+  await mouse("mousePressed", middle, { button: "left", buttons: 1 });
+  await mouse("mouseMoved", [380, 320], { button: "left", buttons: 1 });
+  await mouse("mouseReleased", [380, 320], { button: "left" });
+  const turned = await eye();
+  assert.notDeepEqual(turned, start, "dragging turns the view");
+  assert.equal(await evaluate("viewer.picked"), bodies === 1 ? 0 : -1, "dragging picks nothing");
+  await mouse("mouseWheel", middle, { deltaX: 0, deltaY: -300 });
+  await pause(100);
+  assert.notDeepEqual(await eye(), turned, "the wheel zooms");
+
+  const wanted = Math.floor(bodies / 2);
+  const at = await evaluate(`(() => { const rect = viewer.rects()[0];
+    return viewer.projected(viewer.cameraOf(rect), rect, viewer.place(viewer.runs[0], viewer.state.time, ${wanted})).slice(0, 2); })()`);
+  await click(at);
+  await pause(100);
+  const picked = await evaluate("viewer.picked");
+  assert(picked >= 0, "a click picks");
+  await screenshot("picked");
+
+  await evaluate(`document.getElementById("layout").value = "0"; document.getElementById("layout").onchange()`);
+  await seek(duration);
+  await screenshot("end");
+  await evaluate("viewer.state.playing = true; viewer.state.time = 0");
+  await rate("one run");
+  const playing = await evaluate("document.activeElement.blur(), viewer.state.playing");
+  await key(" ", " ");
+  assert.equal(await evaluate("viewer.state.playing"), !playing, "the space bar stops and starts it");
+  await key("Escape");
+  assert.equal(await evaluate("viewer.picked"), -1, "Escape lets go");
+
+  await size(390, 844);
+  await evaluate(`const all = document.getElementById("layout"); all.selectedIndex = 0; all.onchange()`);
+  await seek(0.3 * duration);
+  await screenshot("upright");
+  const far = await eye();
+  await send("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+  const touch = (type, points) => send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  await touch("touchStart", [[150, 300], [250, 300]]);
+  await touch("touchMove", [[100, 300], [300, 300]]);
+  await touch("touchEnd", []);
+  await pause(100);
+  const near = await eye();
+  const target = await evaluate("viewer.header.target");
+  const distance = p => Math.hypot(...p.map((x, k) => x - target[k]));
+  assert(distance(near) < 0.8 * distance(far), "two fingers apart come closer");
+
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests.filter(url => !url.startsWith("file:")), [], "nothing is loaded");
+  console.log("no complaints, no requests but for the page itself");
+} catch (error) {
+  failure = error;
+}
+started.browser.kill();
+await new Promise(end => started.browser.on("exit", end));
+rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
+if (failure) throw failure;
+process.exit(0);
