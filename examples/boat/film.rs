@@ -4,7 +4,7 @@ use crate::righting::{Vessel, heeled};
 use crate::seakeeping::{Record, Voyage};
 use crate::support::recording::Recording;
 use crate::support::scene::{Kind, Scene, convex_outline, pose_parts};
-use crate::support::{Quat, Vec3, glb};
+use crate::support::{Quat, Vec3, glb, html};
 use rapier3d_immersed::free_surface::FreeSurface;
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::prelude::*;
@@ -19,11 +19,11 @@ const TILE: f64 = 1.0;
 const WATER: [f32; 3] = [0.05, 0.16, 0.22];
 const PAINT: [f32; 3] = [0.60, 0.10, 0.06];
 
-/// The first 40 s as a `.glb` file. The sea is of tiles that go up and down and tilt with it.
+/// The first 40 s as a `.glb` file and as a page. The sea is of tiles that go up and down and tilt with it.
 ///
 /// # Errors
 /// Those of [`Voyage::sea`].
-pub fn animation(vessel: &Vessel, record: &Record, voyage: &Voyage) -> Result<Vec<u8>, Error> {
+pub fn animation(vessel: &Vessel, record: &Record, voyage: &Voyage) -> Result<[Vec<u8>; 2], Error> {
     let tile = SharedShape::cuboid(0.5 * TILE as f32, 0.01, 0.5 * TILE as f32);
     let mut scene = Scene::new(PhysicsWorld::new());
     let hull = SharedShape::ball(0.1);
@@ -63,12 +63,14 @@ pub fn animation(vessel: &Vessel, record: &Record, voyage: &Voyage) -> Result<Ve
     let recording = Recording {
         times: record.times[..shown].iter().map(|t| t - start).collect(),
         frames: moments.map(frame).collect(),
+        forces: Vec::new(),
         fates: Vec::new(),
         falling_step: 0.0,
         landed_step: 0.0,
         wall_time: 0.0,
     };
-    Ok(glb::animation(&scene, &recording))
+    let page = html::page("A boat in a sea", &scene, &[("boat", &recording)]);
+    Ok([glb::animation(&scene, &recording), page.into()])
 }
 
 /// A kind of piece to look at alone.

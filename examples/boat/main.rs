@@ -5,7 +5,8 @@
 //! cargo run --release --example boat -- --hull mine.obj --center 0.1 --wave-height 0.5 --wave-period 4
 //! ```
 //!
-//! Writes `boat.svg` (righting levers and motions), `boat.glb` (an animation for 3-D tools) and `summary.json`.
+//! Writes `boat.svg` (righting levers and motions), `boat.glb` (an animation for 3-D tools), `boat.html` (a page that plays
+//! it) and `summary.json`.
 
 #[path = "../support/draw.rs"]
 #[allow(dead_code, reason = "shared with other examples")]
@@ -225,16 +226,18 @@ fn main() {
         "step_us": record.step,
     });
     let film = film::animation(&vessel, &record, &voyage);
-    let film = film.unwrap_or_else(|problem| cli::cannot_write("boat.glb".as_ref(), problem));
+    let [film, page] =
+        film.unwrap_or_else(|problem| cli::cannot_write("boat.glb".as_ref(), problem));
     for (name, content) in [
         ("boat.svg", picture.into_bytes()),
         ("boat.glb", film),
+        ("boat.html", page),
         ("summary.json", format!("{summary:#}\n").into_bytes()),
     ] {
         cli::write(&options.out.join(name), content);
     }
     println!(
-        "wrote {}/{{boat.svg, boat.glb, summary.json}}",
+        "wrote {}/{{boat.html, boat.svg, boat.glb, summary.json}}",
         options.out.display()
     );
 }

@@ -6,22 +6,23 @@
 //! cargo run --release --example pond -- --leaves 200 --wind 3 --seconds 60
 //! ```
 //!
-//! Writes `pond.svg` (moments of it), `pond.glb` (an animation for 3-D tools) and `summary.json`.
+//! Writes `pond.html` (a page that plays it), `pond.svg` (moments of it), `pond.glb` (an animation for 3-D tools) and
+//! `summary.json`.
 
 mod scene;
 #[path = "../support/mod.rs"]
 mod support;
 
 use clap::Parser;
-use rapier3d_immersed::RapierSets;
 use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
+use rapier3d_immersed::{Immersion, RapierSets};
 use scene::{Channel, Count, Pond};
 use serde_json::json;
 use std::path::PathBuf;
 use std::time::Instant;
-use support::recording::{RunOptions, run};
+use support::recording::{RunOptions, Stepper, run};
 use support::sheet::{Camera, contact_sheet};
-use support::{Vec3, cli, glb};
+use support::{Vec3, cli, glb, html};
 
 /// Leaves rain on a pond with a current, two banks, a breeze and a log.
 #[derive(Parser, Debug)]
@@ -50,6 +51,26 @@ struct Options {
     out: PathBuf,
 }
 
+/// An immersion whose steps are timed.
+struct Timed<'a> {
+    immersion: &'a mut Immersion,
+    /// Seconds that it took, and rapier.
+    times: [f64; 2],
+}
+
+impl Stepper for Timed<'_> {
+    fn step(&mut self, world: &mut PhysicsWorld) {
+        let start = Instant::now();
+        self.immersion.before_step(&mut RapierSets::of(world));
+        let stepped = Instant::now();
+        world.step();
+        let done = Instant::now();
+        self.immersion.after_step(&mut RapierSets::of(world));
+        self.times[0] += (done.elapsed() + (stepped - start)).as_secs_f64();
+        self.times[1] += (done - stepped).as_secs_f64();
+    }
+}
+
 fn main() {
     let options: Options = cli::parse();
     let pond = Pond {
@@ -65,19 +86,14 @@ fn main() {
         seconds: options.seconds,
         frame_rate: options.frame_rate,
         message: "pond",
+        forces: false,
     };
-    let mut times = [0.0; 2];
-    let step = |world: &mut PhysicsWorld| {
-        let start = Instant::now();
-        immersion.before_step(&mut RapierSets::of(world));
-        let stepped = Instant::now();
-        world.step();
-        let done = Instant::now();
-        immersion.after_step(&mut RapierSets::of(world));
-        times[0] += (done.elapsed() + (stepped - start)).as_secs_f64();
-        times[1] += (done - stepped).as_secs_f64();
+    let mut timed = Timed {
+        immersion: &mut immersion,
+        times: [0.0; 2],
     };
-    let recording = run(&mut scene, &run_options, step);
+    let recording = run(&mut scene, &run_options, &mut timed);
+    let times = timed.times;
     for warning in immersion.warnings() {
         eprintln!("warning: {warning}");
     }
@@ -139,13 +155,17 @@ fn main() {
     let files = [
         ("pond.svg", strip.into_bytes()),
         ("pond.glb", glb::animation(&scene, &recording)),
+        (
+            "pond.html",
+            html::page("Leaves on a pond", &scene, &[("pond", &recording)]).into(),
+        ),
         ("summary.json", format!("{summary:#}\n").into_bytes()),
     ];
     for (name, content) in &files {
         cli::write(&options.out.join(name), content);
     }
     println!(
-        "wrote {}/{{pond.svg, pond.glb, summary.json}}",
+        "wrote {}/{{pond.html, pond.svg, pond.glb, summary.json}}",
         options.out.display()
     );
 }
