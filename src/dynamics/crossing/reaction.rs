@@ -12,6 +12,9 @@ use crate::hydro::viscous::ForceFactors;
 use crate::math::spatial::{Blocks, Twist};
 use rapier3d::na::{Matrix3, Vector3};
 
+/// A fluid that rests where the lowest does is not asked for its force on a part if it has less than this share of the mass
+/// that the lowest has there, and so of the force: air over still water.
+const SLIGHT: f64 = 0.01;
 /// Share of a part below which its fluid is not asked for its force.
 const NOTHING: f64 = 1e-6;
 
@@ -82,9 +85,23 @@ impl Reaction<f64> for Fluids<'_> {
             m21: nothing,
             m22: nothing,
         };
-        let parts = self.fluids.iter().flat_map(|fluid| &fluid.parts);
-        for ((part, portion), now) in parts.zip(self.portions).zip(self.now) {
-            if portion.share < NOTHING {
+        let of_layers = |fluid: &CrossingFluid| fluid.parts.len();
+        let count = self.fluids.first().map_or(1, of_layers).max(1);
+        let lowest = self.portions.rchunks(count).next().unwrap_or_default();
+        let rows = self.portions.chunks(count).zip(self.now.chunks(count));
+        let rows = self
+            .fluids
+            .iter()
+            .zip(rows)
+            .flat_map(|(fluid, (own, now))| {
+                let own = fluid.parts.iter().zip(own).zip(now);
+                own.zip(lowest).map(move |own| (fluid.density, own))
+            });
+        let densest = self.fluids.last().map_or(0.0, |fluid| fluid.density);
+        for (density, (((part, portion), now), below)) in rows {
+            let still = now.velocity == Vector3::zeros() && now.spin == Vector3::zeros();
+            let slight = density * portion.share < SLIGHT * densest * below.share;
+            if portion.share < NOTHING || (still && slight) {
                 continue;
             }
             let mut place = part.place_now(Exact, true, now);
