@@ -8,7 +8,7 @@ use rapier3d::math::{Real, Vector};
 const MOST_CELLS: f64 = 4096.0;
 
 /// Vertices and triangles of the rectangular patch of a surface from `corner` to `corner + size` (x and z, m) at a time
-/// (s), in level axes: vertex (i, j) of `cells` + 1 along x and z has number j·(cells[0] + 1) + i. Seen from above the triangles
+/// (s), in level axes: vertex (i, j) of `cells` + 1 along x and z has number `j·(cells[0] + 1) + i`. Seen from above the triangles
 /// are counterclockwise, two to a cell, cut along alternating diagonals. They are the same at all times.
 ///
 /// ```
