@@ -71,9 +71,22 @@ impl ImmersedBody {
     /// # Errors
     /// Those of [`HydroProperties::check`], [`ViscousLaw::check`], [`Part::check`] and [`Thruster::check`].
     pub fn check(&self) -> Result<(), Error> {
-        self.hydro.check()?;
+        self.check_numbers()?;
+        self.check_hulls()
+    }
+
+    /// Checks the hulls, which only a boundary of fluids asks for.
+    pub(crate) fn check_hulls(&self) -> Result<(), Error> {
+        self.hydro.check_hulls()?;
+        let mut parts = self.parts.iter();
+        parts.try_for_each(|part| part.hydro.check_hulls())
+    }
+
+    /// Checks all but the hulls.
+    pub(crate) fn check_numbers(&self) -> Result<(), Error> {
+        self.hydro.check_numbers()?;
         self.law.check()?;
-        self.parts.iter().try_for_each(Part::check)?;
+        self.parts.iter().try_for_each(Part::check_numbers)?;
         self.thrusters.iter().try_for_each(Thruster::check)
     }
 

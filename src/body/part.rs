@@ -106,7 +106,13 @@ impl Part {
     /// Those of its properties and its law; [`Error::NotFinite`] for its pose, [`Error::InvalidParameter`] for a hinge
     /// whose axis is not of length 1.
     pub fn check(&self) -> Result<(), Error> {
-        self.hydro.check()?;
+        self.check_numbers()?;
+        self.hydro.check_hulls()
+    }
+
+    /// Checks all but the hull.
+    pub(crate) fn check_numbers(&self) -> Result<(), Error> {
+        self.hydro.check_numbers()?;
         if let Some(law) = &self.law {
             law.check()?;
         }

@@ -311,6 +311,9 @@ impl InMedium {
         dry: &DryMass,
         medium: &Medium,
     ) -> Result<Self, Error> {
+        if medium.has_surface() {
+            body.check_hulls()?;
+        }
         let thrusters = body.thrusters.as_slice().into();
         let mut in_fluids = medium
             .fluids()

@@ -78,7 +78,7 @@ impl BodyConstants {
     /// [`ViscousLaw::check`](crate::ViscousLaw::check).
     pub fn new(body: &ImmersedBody, dry: &DryMass, fluid: &Fluid) -> Result<Self, Error> {
         dry.check()?;
-        body.check()?;
+        body.check_numbers()?;
         let hydro = &body.hydro;
         let rho = f64::from(fluid.density());
         let about_center = hydro.added_mass_about(dry.center);

@@ -25,6 +25,25 @@ impl HydroProperties {
     /// [`Error::InvalidParameter`], [`Error::OutOfRange`], [`Error::NotFinite`] or
     /// [`Error::UnphysicalAddedMass`] names the first that cannot be; those of [`Hull::check`](crate::Hull::check).
     pub fn check(&self) -> Result<(), Error> {
+        self.check_numbers()?;
+        self.check_hulls()
+    }
+
+    /// Checks the hull, and those of the parts: that takes a while where it has many triangles.
+    pub(crate) fn check_hulls(&self) -> Result<(), Error> {
+        self.hull.check()?;
+        let enclosed = self.hull.volume() / self.volume;
+        Error::check(
+            "volume that the hull encloses over the displaced volume",
+            enclosed,
+            (enclosed - 1.0).abs() <= HULL_ROUNDING,
+            "1 within 1e-3",
+        )?;
+        self.parts.iter().try_for_each(Self::check_hulls)
+    }
+
+    /// Checks all but the hulls.
+    pub(crate) fn check_numbers(&self) -> Result<(), Error> {
         Error::check_positive("displaced volume", self.volume)?;
         Error::check_all_finite("center of buoyancy", self.centroid.as_slice())?;
         Error::check_all_finite("reference point", self.reference.as_slice())?;
@@ -73,18 +92,10 @@ impl HydroProperties {
         if let Some(bluff) = &self.bluff {
             bluff.check()?;
         }
-        self.hull.check()?;
-        let enclosed = self.hull.volume() / self.volume;
-        Error::check(
-            "volume that the hull encloses over the displaced volume",
-            enclosed,
-            (enclosed - 1.0).abs() <= HULL_ROUNDING,
-            "1 within 1e-3",
-        )?;
         for part in &self.parts {
             let nested = part.parts.len() as f64;
             Error::check("parts of a part", nested, nested == 0.0, "none")?;
-            part.check()?;
+            part.check_numbers()?;
         }
         Ok(())
     }
