@@ -239,7 +239,7 @@ impl Medium {
         self.origin
     }
 
-    /// The same place in every fluid's layer from the first.
+    /// Whether there are several fluids, with a free surface between the first two.
     pub(crate) fn has_surface(&self) -> bool {
         self.layers.len() > 1
     }

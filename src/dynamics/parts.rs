@@ -21,7 +21,7 @@ use crate::hydro::part_law::place::{CoupledMass, PartPlace};
 use crate::hydro::viscous::ForceFactors;
 use crate::math::Scalar;
 use crate::math::spatial::{Blocks, Twist, Wrench, cross, product, rotate_back, skew, transform};
-use rapier3d::na::{Matrix3, Vector3};
+use rapier3d::na::Vector3;
 
 /// What the fluid around a part does, and how the part is set: of one body, or of several side by side.
 #[derive(Clone, Copy, Debug)]
@@ -82,15 +82,8 @@ impl<T: Scalar, R: Raise<T>, N: Fn(usize) -> PartNow<T>> Reaction<T> for Parts<'
             middle,
             attitude,
         } = frozen;
-        let zero = h.constant(0.0);
         let mut applied = load.applied(attitude);
-        let nothing = Matrix3::repeat(zero);
-        let mut n = Blocks {
-            m11: nothing,
-            m12: nothing,
-            m21: nothing,
-            m22: nothing,
-        };
+        let mut n = Blocks::zero(h);
         for (i, part) in self.constants.iter().enumerate() {
             let now = (self.now)(i);
             let place = part.place_now(self.raise, self.deflected, &now);

@@ -92,6 +92,18 @@ impl<T: Scalar> std::ops::Add for Wrench<T> {
 }
 
 impl<T: Scalar> Blocks<T> {
+    /// Zero, of the kind that `scalar` is.
+    #[inline(always)]
+    pub fn zero(scalar: T) -> Self {
+        let nothing = Matrix3::repeat(scalar.constant(0.0));
+        Self {
+            m11: nothing,
+            m12: nothing,
+            m21: nothing,
+            m22: nothing,
+        }
+    }
+
     /// Product with a twist.
     #[inline(always)]
     pub fn apply(&self, v: &Twist<T>) -> Wrench<T> {

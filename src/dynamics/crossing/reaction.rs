@@ -78,13 +78,7 @@ impl Reaction<f64> for Fluids<'_> {
             attitude,
         } = frozen;
         let mut applied = load.applied(attitude);
-        let nothing = Matrix3::zeros();
-        let mut n = Blocks {
-            m11: nothing,
-            m12: nothing,
-            m21: nothing,
-            m22: nothing,
-        };
+        let mut n = Blocks::zero(h);
         let of_layers = |fluid: &CrossingFluid| fluid.parts.len();
         let count = self.fluids.first().map_or(1, of_layers).max(1);
         let lowest = self.portions.rchunks(count).next().unwrap_or_default();

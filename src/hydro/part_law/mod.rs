@@ -176,15 +176,7 @@ impl PreparedPart<f64> {
         v: &Twist<f64>,
         factors: ForceFactors<f64>,
     ) -> [Blocks<f64>; 4] {
-        let none = || {
-            let zero = Matrix3::zeros();
-            Blocks {
-                m11: zero,
-                m12: zero,
-                m21: zero,
-                m22: zero,
-            }
-        };
+        let none = || Blocks::zero(0.0);
         match self {
             Self::Viscous(law) => {
                 let law = &Factored { law, factors };
