@@ -17,7 +17,7 @@ use rapier3d::na::{Rotation3, UnitQuaternion, Vector3};
 /// Substeps that a crossing alone asks for at most: what goes under faster is an impact.
 const MOST_SUBSTEPS: f64 = 8.0;
 /// Damping of heave by the waves that a body makes, over the critical one: of a half sunk sphere at its own frequency
-/// (Hulme, *J. Fluid Mech.* 121, 443 (1982)).
+/// (about; Hulme, *J. Fluid Mech.* 121, 443 (1982) tabulates it, and was not at hand).
 const RADIATION: f64 = 0.1;
 /// Share of its height that a body moves by in a step that is looked at again.
 const LIVELY: f64 = 0.05;

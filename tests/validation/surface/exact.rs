@@ -193,8 +193,8 @@ fn roll_has_the_period_of_its_metacentric_height() {
     }
 }
 
-/// How a long square log floats: upright for relative densities below .2113 and above .7887, on an edge for ½ (Gilbert,
-/// *Am. J. Phys.* 59, 520 (1991)). Let go in between, it turns there.
+/// How a long square log floats: upright for relative densities below .2113 and above .7887, on an edge for ½ (*Floating of a
+/// Long Square Bar*, Am. J. Phys. 31, 565 (1963)). Let go in between, it turns there.
 #[test]
 fn a_square_log_floats_upright_or_on_its_edge() {
     for (share, wanted) in [(0.15, 0.0), (0.85, 0.0), (0.5, 45.0_f32)] {
