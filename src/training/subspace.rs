@@ -66,21 +66,6 @@ impl Subspaces {
             .collect()
     }
 
-    /// Nodes of a pattern whose neighbours show it as well; all of its nodes if there are none. Plans made
-    /// with these stay away from the boundary.
-    pub fn inner_nodes(&self, pattern: Pattern) -> Vec<usize> {
-        let nodes = self.nodes(pattern);
-        let inner: Vec<usize> = nodes
-            .iter()
-            .copied()
-            .filter(|node| {
-                let neighbours = self.grid.neighbours(*node);
-                neighbours.iter().all(|n| self.labels[*n] == pattern)
-            })
-            .collect();
-        if inner.is_empty() { nodes } else { inner }
-    }
-
     /// The node of a pattern nearest to a point, in units of the axes' spacings; `None` if the body
     /// never shows the pattern.
     pub fn nearest(&self, pattern: Pattern, point: &[f64]) -> Option<usize> {
@@ -196,9 +181,6 @@ mod tests {
         assert_eq!(line.nearest(Pattern::AutorotationZigzag, &[0.0]), None);
         let regions = line.regions(Pattern::SteadyDescent);
         assert_eq!(regions, vec![vec![0, 1], vec![4]]);
-        // Node 1 touches another pattern; nodes 2 and 3 have no inner node at all.
-        assert_eq!(line.inner_nodes(Pattern::SteadyDescent), vec![0]);
-        assert_eq!(line.inner_nodes(Pattern::Zigzag), vec![2]);
     }
 
     #[test]
