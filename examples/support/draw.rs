@@ -143,7 +143,7 @@ pub fn svg(
     svg_with_legend(title, &[], panels, columns, size)
 }
 
-fn svg_with_legend(
+pub fn svg_with_legend(
     title: &str,
     legend: &[(String, RGBColor)],
     panels: &[Panel],

@@ -1,0 +1,160 @@
+//! Measured falls of paper circles and hexagons (`tests/data/paper`: Howison, Hughes & Iida 2020), beside this
+//! crate's from the same start.
+//!
+//! ```text
+//! cargo run --release --example tracks              # with the fits of tests/data/paper/fits.csv: a second
+//! cargo run --release --example tracks -- --fit     # fits anew: minutes
+//! ```
+//!
+//! * **Forecasts.** The state at the first frame is estimated from 0.2 s of the track, under the default law as
+//!   it is; from then on the fall goes on by itself. Printed: when it is a diameter off, beside a paper that
+//!   goes straight on, and beside the measured repeat of the experiment.
+//! * **Identification.** Coefficients of the law are fitted to 0.41 s of one track, with deviations and
+//!   residual, and tried on the repeat, of which only the state is estimated.
+//!
+//! `tracks.svg` has the paths with the attitude of the paper (as thesis Fig. 3.6 has them), `tracks_errors.svg`
+//! the errors over time and the coefficients, `fits.csv` the fits.
+
+#[path = "../support/draw.rs"]
+#[allow(dead_code, reason = "shared with other examples")]
+mod draw;
+mod fits;
+mod forecast;
+mod measured;
+mod picture;
+
+use clap::Parser;
+use fits::{FAMILIES, FallFit};
+use forecast::{DEFAULT, FITTED, Family, KNOWN, PHYSICAL, THESIS, moved, straight_on};
+use measured::{Fall, divergence};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// Measured falls of paper beside this crate's.
+#[derive(Parser)]
+#[command(name = "tracks")]
+struct Arguments {
+    /// Fit anew instead of taking the fits of tests/data/paper/fits.csv
+    #[arg(long)]
+    fit: bool,
+    /// Directory for the pictures and fits.csv
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match run(arguments.fit, &arguments.out) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(anew: bool, out: &Path) -> Result<(), Failure> {
+    let falls = Fall::all()?;
+    let fits = if anew {
+        fit(&falls)?
+    } else {
+        FallFit::shipped()?
+    };
+    let find = |fall: &Fall, family: &Family, of: &Fall| {
+        let same = |f: &&FallFit| {
+            (&*f.fall, &*f.law, &*f.coefficients_of) == (fall.name, family.name, of.name)
+        };
+        let found = fits.iter().find(same);
+        found.ok_or_else(|| format!("fits.csv: no {} of {}", family.name, fall.name))
+    };
+    println!(
+        "Seconds from the first frame until a diameter off; the state is estimated from the first {KNOWN} frames."
+    );
+    println!(
+        "{:22}{:>9}{:>9}{:>12}{:>10}{:>11}",
+        "fall", "rms, mm", "ours", "straight on", "repeat", "views, r"
+    );
+    let mut forecasts = Vec::new();
+    for (i, fall) in falls.iter().enumerate() {
+        let forecast = find(fall, &DEFAULT, fall)?.forecast(fall, &DEFAULT)?;
+        let until = |path: &[_]| seconds(divergence(path, &fall.positions, fall.diameter()));
+        println!(
+            "{:22}{:9.1}{:>9}{:>12}{:>10}{:11.2}",
+            fall.name,
+            1e3 * forecast.residual(),
+            seconds(forecast.divergence),
+            until(&straight_on(fall)),
+            until(&moved(fall, &falls[i ^ 1])),
+            forecast.view_correlation(fall, KNOWN, 2 * KNOWN),
+        );
+        forecasts.push(forecast);
+    }
+    println!(
+        "\nCoefficients fitted to the first {} frames, and seconds until the repeat is a diameter off",
+        FITTED
+    );
+    println!(
+        "(its state estimated from its first {KNOWN} frames; \"!\": at the end of its range)."
+    );
+    for (i, fall) in falls.iter().enumerate() {
+        for family in [&PHYSICAL, &THESIS] {
+            let repeat = &falls[i ^ 1];
+            let fit = find(fall, family, fall)?;
+            let (coefficients, _) = fit.split(family);
+            let held = find(repeat, family, fall)?.forecast(repeat, family)?;
+            let named = family.coefficients.iter().enumerate().map(|(k, name)| {
+                let mark = if fit.at_bound.contains(&k) { "!" } else { "" };
+                format!(
+                    "{name} {:.3}{mark} ± {:.3}",
+                    coefficients[k], fit.deviations[k]
+                )
+            });
+            let named: Vec<String> = named.collect();
+            println!(
+                "{:22}{:10}{}; residual {:.2}; repeat {}",
+                fall.name,
+                family.name,
+                named.join(", "),
+                fit.residual,
+                seconds(held.divergence),
+            );
+        }
+    }
+    std::fs::create_dir_all(out)?;
+    let write = |name: &str, text: String| {
+        let file = out.join(name);
+        std::fs::write(&file, text).map_err(|e| format!("{}: {e}", file.display()))
+    };
+    write("tracks.svg", picture::paths(&falls, &forecasts)?)?;
+    write(
+        "tracks_errors.svg",
+        picture::errors(&falls, &forecasts, &fits)?,
+    )?;
+    write("fits.csv", FallFit::csv(&fits))?;
+    println!("Pictures and fits are in {}.", out.display());
+    Ok(())
+}
+
+/// Fits everything, and the states of repeats.
+fn fit(falls: &[Fall]) -> Result<Vec<FallFit>, Failure> {
+    let tasks: Vec<(usize, &Family)> = (0..falls.len())
+        .flat_map(|i| FAMILIES.map(|family| (i, family)))
+        .collect();
+    let found = tasks.par_iter().map(|(i, family)| {
+        let own = FallFit::new(&falls[*i], family, None)?;
+        if family.coefficients.is_empty() {
+            return Ok(vec![own]);
+        }
+        let repeat = FallFit::of_state(&falls[i ^ 1], family, &own)?;
+        Ok(vec![own, repeat])
+    });
+    let found: Result<Vec<_>, rapier3d_immersed::Error> = found.collect();
+    Ok(found?.concat())
+}
+
+fn seconds(time: Option<f64>) -> String {
+    time.map_or("never".into(), |t| format!("{t:.2}"))
+}
