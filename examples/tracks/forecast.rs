@@ -59,7 +59,7 @@ pub fn defaults() -> [f64; 4] {
 pub const THESIS: Family = Family {
     name: "thesis",
     coefficients: &["C_D", "C_L1", "C_L2"],
-    ranges: &[(0.1, 3.0), (-1.0, 4.0), (-1.0, 4.0)],
+    ranges: &[(0.1, 4.0), (-4.0, 4.0), (-4.0, 8.0)],
     law: |c| ViscousLaw::Thesis(ThesisLaw::new([c[0], c[1], c[2]])),
 };
 
@@ -107,8 +107,8 @@ pub fn identify(
             } else {
                 vec![1.0]
             },
-            random_starts: 3000,
-            descents: 12,
+            random_starts: 2000,
+            descents: 8,
             row: 5,
             max_iterations: 50,
             difference: 1e-4,

@@ -1,8 +1,8 @@
 //! Measured falls of paper (Howison, Hughes & Iida 2020, `tests/data/paper`): forecasts of them, and coefficients
 //! identified from them. The fits are those of `fits.csv`, which the example `tracks` writes; some are made again.
 
-use crate::fits::{FAMILIES, FallFit};
-use crate::forecast::{DEFAULT, Family, Forecast, KNOWN, PHYSICAL, THESIS, moved, straight_on};
+use crate::fits::FallFit;
+use crate::forecast::{DEFAULT, Family, KNOWN, PHYSICAL, THESIS, defaults, moved, straight_on};
 use crate::measured::{CAMERAS, Fall, Paper, RATE, STATE, divergence};
 use rapier3d_immersed::ViscousLaw;
 use rapier3d_immersed::rapier3d::na::Vector3;
@@ -62,11 +62,16 @@ fn the_table_of_falls_is_that_of_the_published_segments() {
             assert!((ours - mean).abs() < 6e-4, "{shape}, {class}: {ours}");
         }
     }
-    // Re from its definition, to the digits printed.
+    // Re from its definition, to what is lost where it and the descent were rounded.
     let (re, radius) = (numbers(&column("re")), numbers(&column("radius_m")));
     for i in 0..re.len() {
         let own = 2.0 * radius[i] * descent[i] / 1.48e-5;
-        assert!((re[i] / own - 1.0).abs() < 5e-3, "{i}: {} and {own}", re[i]);
+        let rounded = 0.5 + 2.0 * radius[i] * 5e-5 / 1.48e-5;
+        assert!(
+            (re[i] - own).abs() < 1.01 * rounded,
+            "{i}: {} and {own}",
+            re[i]
+        );
     }
 }
 
@@ -137,11 +142,31 @@ fn a_paper_is_seen_as_the_cameras_saw_it() {
 }
 
 /// From a state that was estimated from 0.2 s, each fall under the default law stays within a diameter for
-/// longer than the repeat of the experiment does, and than a paper that would go straight on; what does not is
-/// listed. The estimate itself is good to 5 mm (2.5 deviations of the data) for the small papers only.
+/// longer than the repeat of the experiment does, and than a paper that would go straight on, and shows the
+/// cameras as much as the measured one for another 0.2 s (correlation above one half); what does not is listed.
+/// The estimate itself is good to 5 mm, 2.5 deviations of the data, for the small papers only: the large ones
+/// dive and pull up more sharply than the law lets them (and paper of 84 mm bends).
 #[test]
 fn forecasts_outlast_repeats() {
-    const MISSED: &[(&str, &str)] = &[];
+    const MISSED: &[(&str, &str)] = &[
+        ("circle_16mm_edge_a", "straight on"),
+        ("circle_16mm_edge_a", "views"),
+        ("circle_16mm_edge_b", "straight on"),
+        ("circle_16mm_edge_b", "views"),
+        ("circle_44mm_edge_a", "estimate"),
+        ("circle_44mm_edge_a", "views"),
+        ("circle_44mm_edge_b", "estimate"),
+        ("circle_44mm_edge_b", "views"),
+        ("circle_18mm_flat_a", "straight on"),
+        ("circle_18mm_flat_a", "views"),
+        ("circle_18mm_flat_b", "views"),
+        ("hexagon_18mm_edge_a", "repeat"),
+        ("hexagon_18mm_edge_a", "straight on"),
+        ("hexagon_18mm_edge_a", "views"),
+        ("hexagon_42mm_edge_a", "estimate"),
+        ("hexagon_42mm_edge_a", "views"),
+        ("hexagon_42mm_edge_b", "estimate"),
+    ];
     let (falls, fits) = (Fall::all().unwrap(), FallFit::shipped().unwrap());
     let mut missed = Vec::new();
     for (i, fall) in falls.iter().enumerate() {
@@ -191,7 +216,11 @@ fn a_shipped_state_is_found_again() {
     }
 }
 
-/// Four coefficients of the default law from 0.41 s of a circle of 24 mm, and from its repeat.
+/// Four coefficients of the default law from 0.41 s of a circle of 24 mm, and from its repeat: three of them
+/// agree within two deviations, ε does not (the deviations are too small by up to √5, since the errors of five
+/// frames go together). With the coefficients of the one fall, and its own state, the other stays within a
+/// diameter of its forecast for longer than straight on and than the repeat; and for longer than under the law as
+/// it is in one of two cases. C_s is about half of what the calibration on many plates has.
 #[test]
 fn coefficients_of_a_circle_are_identified_and_hold_for_its_repeat() {
     let (falls, fits) = (Fall::all().unwrap(), FallFit::shipped().unwrap());
@@ -202,17 +231,58 @@ fn coefficients_of_a_circle_are_identified_and_hold_for_its_repeat() {
         (again.residual / found[0].residual - 1.0).abs() < 0.01,
         "{again:?}"
     );
+    let count = PHYSICAL.coefficients.len();
     for fit in found {
-        println!("{fit:?}");
+        assert!(fit.residual < 1.0, "{fit:?}");
+        assert!(fit.at_bound.iter().all(|k| *k >= count), "{fit:?}");
+        let below = (defaults()[0] - fit.parameters[0]) / fit.deviations[0];
+        assert!(below > 3.0, "C_s: {below} deviations");
     }
+    let apart: Vec<f64> = (0..count)
+        .map(|k| {
+            let deviation = found[0].deviations[k].hypot(found[1].deviations[k]);
+            (found[0].parameters[k] - found[1].parameters[k]).abs() / deviation
+        })
+        .collect();
+    let agree: Vec<bool> = apart.iter().map(|a| *a < 2.0).collect();
+    assert_eq!(agree, [true, true, false, true], "{apart:?}");
+    let mut longer = 0;
     for (one, other) in [(0, 1), (1, 0)] {
-        let held = fit(&fits, pair[other], &PHYSICAL, pair[one]);
-        let held: Forecast = held.forecast(pair[other], &PHYSICAL).unwrap();
-        let as_is = fit(&fits, pair[other], &DEFAULT, pair[other]);
-        let as_is = as_is.forecast(pair[other], &DEFAULT).unwrap();
-        println!("{:?} {:?}", held.divergence, as_is.divergence);
-        let thesis = fit(&fits, pair[one], &THESIS, pair[one]);
-        println!("{thesis:?}");
+        let fall = pair[other];
+        let until = |path: &[Vector3<f64>]| divergence(path, &fall.positions, fall.diameter());
+        let held = fit(&fits, fall, &PHYSICAL, pair[one]);
+        let held = held.forecast(fall, &PHYSICAL).unwrap().divergence;
+        let as_is = fit(&fits, fall, &DEFAULT, fall);
+        let as_is = as_is.forecast(fall, &DEFAULT).unwrap().divergence;
+        assert!(held > until(&straight_on(fall)), "{held:?}");
+        assert!(held > until(&moved(fall, pair[one])), "{held:?}");
+        longer += usize::from(held > as_is);
     }
-    assert_eq!(FAMILIES.len(), 3);
+    assert_eq!(longer, 1);
+}
+
+/// The thesis's law, fitted to four circles that tumble: its C_D is that of a disc broadside on (1.17, Hoerner)
+/// within 5 %. Its C_L1 is negative each time, however: no set of coefficients that the thesis prints (C_L1 of 0.31 to
+/// 2.71) is that of paper that tumbles.
+#[test]
+fn the_thesis_law_finds_the_drag_of_a_disc_in_tracks_and_another_lift() {
+    let (falls, fits) = (Fall::all().unwrap(), FallFit::shipped().unwrap());
+    for fall in &falls[..4] {
+        let shipped = fit(&fits, fall, &THESIS, fall);
+        assert!(shipped.residual < 1.6, "{shipped:?}");
+        let [drag, lift] = [shipped.parameters[0], shipped.parameters[1]];
+        assert!((drag / 1.17 - 1.0).abs() < 0.05, "{}: {drag}", fall.name);
+        assert!(
+            lift + 5.0 * shipped.deviations[1] < 0.0,
+            "{}: {lift}",
+            fall.name
+        );
+    }
+    // What of the file is made again here.
+    let shipped = fit(&fits, &falls[1], &THESIS, &falls[1]);
+    let again = FallFit::new(&falls[1], &THESIS, Some(&shipped.parameters)).unwrap();
+    assert!(
+        (again.residual / shipped.residual - 1.0).abs() < 0.01,
+        "{again:?}"
+    );
 }
