@@ -122,7 +122,7 @@ pub fn errors(falls: &[Fall], forecasts: &[Forecast], fits: &[FallFit]) -> Resul
     }
     for (k, name) in PHYSICAL.coefficients.iter().enumerate() {
         let title = format!("{name} fitted, ± a deviation (grey: at the end of its range)");
-        let mut panel = Panel::new(title, "fall, in the order of the table", *name);
+        let mut panel = Panel::new(title, "fall, in the order of the table", name);
         let (low, high) = PHYSICAL.ranges[k];
         panel.window = Some([
             (0.0, falls.len() as f64 + 1.0),
