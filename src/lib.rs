@@ -105,8 +105,8 @@ pub use hydro::viscous::{
 };
 pub use hydro::{
     Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, Hull, HydroProperties,
-    OutOfScope, PartLaw, PartMotion, Planform, PolarRow, PolarTable, StokesResistance, Submerged,
-    Waterplane,
+    OutOfScope, PartLaw, PartMotion, Planform, PolarRow, PolarTable, SeparatedLaw,
+    StokesResistance, Submerged, Waterplane,
 };
 pub use medium::{Layer, Medium};
 pub use rapier3d;

@@ -5,8 +5,8 @@ use rapier3d_immersed::rapier3d::na::{Matrix3, UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
 use rapier3d_immersed::reduced::Axis;
 use rapier3d_immersed::{
-    DryMass, Error, Fluid, FreeBody, HydroProperties, ImmersedBody, Integrator, PhysicalLaw,
-    ThesisLaw, ViscousLaw,
+    DryMass, Error, Fluid, FreeBody, HydroProperties, ImmersedBody, Integrator, ThesisLaw,
+    ViscousLaw,
 };
 
 /// m/s², world axes: z is up.
@@ -21,47 +21,6 @@ pub enum Law {
     /// Parameters density ratio, release angle; the chord dips. The motion stays in the plane y–z.
     Default,
 }
-
-/// The default law with coefficients that are less abrupt: it never stalls. Under the
-/// calibrated ones the plate is chaotic between flutter and tumbling (as
-/// measured), and no surrogate follows it there.
-const SMOOTH: PhysicalLaw = PhysicalLaw {
-    pressure_travel: 0.112,
-    lift_slope: 1.0,
-    vortex_lift: 0.0,
-    stalled_lift: 0.65,
-    stalled_lift_narrow: 0.65,
-    steady_lift: 0.0,
-    steady_rate: 1.0,
-    stall_sine: 1.5,
-    stall_aspect: 0.0,
-    stall_limit: 10.0,
-    stall_width: 0.35,
-    pitch_stall: 0.0,
-    pitch_stall_narrow: 0.0,
-    stall_delay: 0.0,
-    pressure_retreat: 0.0,
-    stalled_travel: 0.0,
-    stalled_travel_narrow: 0.0,
-    travel_onset: 0.0,
-    rotational_stall: 0.5,
-    rotational_stall_narrow: 0.5,
-    munk: 0.16,
-    attached_damping: 0.655,
-    roll_damping: 1.0,
-    roll_damping_narrow: 0.375,
-    translation_damping: 0.655,
-    translation_damping_narrow: 0.655,
-    rotation_damping: 1.35,
-    rotation_damping_narrow: 1.35,
-    friction: 5.4,
-    edge_drag: 0.15,
-    lift_onset: 95.0,
-    damping_onset: 25.0,
-    suction_loss: 0.0,
-    induced_drag: 0.0,
-    magnus: 0.5,
-};
 
 /// A thin ellipsoid in a fluid, its long axis along x and its normal along z.
 #[derive(Clone)]
@@ -105,7 +64,7 @@ impl Specimen {
             (Law::Thesis, [a, b, c, ratio]) => {
                 (ViscousLaw::Thesis(ThesisLaw::new([*a, *b, *c])), *ratio)
             }
-            (Law::Default, [ratio]) => (ViscousLaw::Physical(SMOOTH), *ratio),
+            (Law::Default, [ratio]) => (ViscousLaw::default(), *ratio),
             _ => {
                 return Err(Error::WrongLength {
                     what: "parameters of the law",

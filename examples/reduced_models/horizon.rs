@@ -2,6 +2,7 @@
 //! trajectory, the flow map over a short time, the rates. Error against horizon, off the grid.
 
 use crate::Outcome;
+use crate::alternatives;
 use crate::chart::{COLORS, Mark, Panel, SeriesLabelPosition, draw};
 use crate::errors::{Errors, Truth};
 use crate::free_fall::Domain;
@@ -18,24 +19,24 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
 use std::time::Instant;
 
-const TOLERANCES: Tolerances = Tolerances {
+pub const TOLERANCES: Tolerances = Tolerances {
     relative: 1e-8,
     absolute: 1e-8,
     max_steps: 100_000,
 };
-const HORIZONS: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
+pub const HORIZONS: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 40.0];
 const STEP: f64 = 0.25;
 
-fn plate(p: &[f64]) -> FallingPlate {
+pub fn plate(p: &[f64]) -> FallingPlate {
     FallingPlate::with_coefficients(p[3], [p[0], p[1], p[2], 1.0, 0.2])
 }
 
-fn start(angle: f64) -> [f64; 6] {
+pub fn start(angle: f64) -> [f64; 6] {
     [1e-3, 1e-3, 1e-3, angle, 0.0, 0.0]
 }
 
 /// Coefficients ± 5 %, and I* over the range.
-fn parameters((low, high): (f64, f64), nodes: usize) -> Result<Vec<Axis>, Box<dyn Error>> {
+pub fn parameters((low, high): (f64, f64), nodes: usize) -> Result<Vec<Axis>, Box<dyn Error>> {
     let around = |x: f64| Axis::spectral(0.95 * x, 1.05 * x, nodes);
     Ok(vec![
         around(1.2)?,
@@ -45,7 +46,7 @@ fn parameters((low, high): (f64, f64), nodes: usize) -> Result<Vec<Axis>, Box<dy
     ])
 }
 
-fn release_angle() -> Result<Axis, Box<dyn Error>> {
+pub fn release_angle() -> Result<Axis, Box<dyn Error>> {
     Ok(Axis::spectral(0.5, 1.0, 9)?)
 }
 
@@ -61,7 +62,7 @@ fn state() -> Result<Vec<Axis>, Box<dyn Error>> {
 
 /// Half turns of the body axes change the signs of u and v alone: the equal state with θ within
 /// (−π/2, π/2), and the sign.
-fn reduced(x: &[f64]) -> ([f64; 4], f64) {
+pub fn reduced(x: &[f64]) -> ([f64; 4], f64) {
     let turns = (x[3] / PI).round();
     let sign = if turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
     ([sign * x[0], sign * x[1], x[2], x[3] - turns * PI], sign)
@@ -204,6 +205,8 @@ fn panel(name: &str, unit: &str, curves: &Curves) -> Panel {
         let color = match *label {
             TRAJECTORY => COLORS[0],
             FLOW_MAP => COLORS[1],
+            alternatives::DEIM => COLORS[3],
+            alternatives::PIECEWISE_LINEAR => COLORS[4],
             _ => COLORS[2],
         };
         panel.add(label, color, Mark::LineAndDots, errors.clone());
@@ -212,48 +215,68 @@ fn panel(name: &str, unit: &str, curves: &Curves) -> Panel {
     panel
 }
 
-/// The plate of this module, and the crate's own dynamics beside it: within one pattern above, across
-/// the boundary of two below.
-pub fn horizon(path: &Path, bar: &ProgressBar) -> Outcome {
+/// One panel per domain: within one pattern, and across the boundary of two.
+fn draw_panels(
+    path: &Path,
+    unit: &str,
+    all: Vec<(&'static str, Curves)>,
+    mut numbers: serde_json::Map<String, serde_json::Value>,
+) -> Outcome {
     let mut panels = Vec::new();
+    for (name, curves) in all {
+        panels.push(panel(name, unit, &curves));
+        let curves: BTreeMap<&str, Errors> = curves.into_iter().collect();
+        numbers.insert(name.into(), serde_json::json!(curves));
+    }
+    draw(path, 2, &panels)?;
+    Ok(numbers.into())
+}
+
+/// The plate of this module, by every method.
+pub fn planar(path: &Path, bar: &ProgressBar) -> Outcome {
     let mut numbers = serde_json::Map::new();
-    for (name, range, own) in [
-        (
-            "planar model: flutter, I* .45 to .55",
-            (0.45, 0.55),
-            [Domain::FLUTTER, Domain::ZIGZAG],
-        ),
-        (
-            "planar model: across tumbling, I* 1.1 to 1.4",
-            (1.1, 1.4),
-            [Domain::TUMBLING, Domain::AUTOROTATION],
-        ),
+    let mut all = Vec::new();
+    for (name, range) in [
+        ("planar model: flutter, I* .45 to .55", (0.45, 0.55)),
+        ("planar model: across tumbling, I* 1.1 to 1.4", (1.1, 1.4)),
     ] {
         let truth = truth(range)?;
+        let mut curves = Vec::new();
+        let mut costs = serde_json::Map::new();
         bar.set_message(format!("{name}: trajectories"));
-        let trajectories = trajectories(range, &truth)?;
+        curves.push((TRAJECTORY, trajectories(range, &truth)?));
         bar.set_message(format!("{name}: flow map"));
-        let (flow_map, microseconds) = flow_map(range, &truth)?;
+        let (errors, microseconds) = flow_map(range, &truth)?;
+        costs.insert(format!("{FLOW_MAP}, µs per step"), microseconds.into());
+        curves.push((FLOW_MAP, errors));
         bar.set_message(format!("{name}: rates"));
-        let rates = rates(range, &truth)?;
-        let curves = vec![
-            (TRAJECTORY, trajectories),
-            (FLOW_MAP, flow_map),
-            (RATES, rates),
-        ];
-        let [water, air] = own;
-        for (name, unit, curves) in [
-            (name, ", dimensionless", curves),
-            (water.name, ", s", own_horizon::plate(&water, bar)?),
-            (air.name, ", s", own_horizon::card(&air, bar)?),
-        ] {
-            panels.push(panel(name, unit, &curves));
-            let curves: BTreeMap<&str, Errors> = curves.into_iter().collect();
-            numbers.insert(name.into(), serde_json::json!(curves));
-        }
-        let key = format!("{name}: flow map, microseconds per step");
-        numbers.insert(key, microseconds.into());
+        curves.push((RATES, rates(range, &truth)?));
+        bar.set_message(format!("{name}: DEIM"));
+        let (errors, cost) = alternatives::deim(range, &truth)?;
+        curves.push((alternatives::DEIM, errors));
+        costs.insert(alternatives::DEIM.into(), cost);
+        bar.set_message(format!("{name}: piecewise linear"));
+        let (errors, cost) = alternatives::piecewise_linear(range, &truth)?;
+        curves.push((alternatives::PIECEWISE_LINEAR, errors));
+        costs.insert(alternatives::PIECEWISE_LINEAR.into(), cost);
+        numbers.insert(format!("{name}: cost"), costs.into());
+        all.push((name, curves));
     }
-    draw(path, 3, &panels)?;
-    Ok(numbers.into())
+    draw_panels(path, ", dimensionless", all, numbers)
+}
+
+/// The crate's own dynamics: a plate in water under the default law.
+pub fn plate_in_water(path: &Path, bar: &ProgressBar) -> Outcome {
+    let domains = [Domain::FLUTTER, Domain::TUMBLING];
+    let curves = domains.map(|d| own_horizon::plate(&d, bar).map(|c| (d.name, c)));
+    let all = curves.into_iter().collect::<Result<_, _>>()?;
+    draw_panels(path, ", s", all, serde_json::Map::new())
+}
+
+/// The crate's own dynamics: a card in air under the thesis's law.
+pub fn card_in_air(path: &Path, bar: &ProgressBar) -> Outcome {
+    let domains = [Domain::ZIGZAG, Domain::AUTOROTATION];
+    let curves = domains.map(|d| own_horizon::card(&d, bar).map(|c| (d.name, c)));
+    let all = curves.into_iter().collect::<Result<_, _>>()?;
+    draw_panels(path, ", s", all, serde_json::Map::new())
 }

@@ -1,11 +1,14 @@
-//! Draws the examples of thesis §6.4 (its Figs. 6.2 to 6.8) and what separated surrogates of a
-//! falling plate and of the crate's own dynamics are worth, error against horizon, and prints the errors.
+//! Draws the examples of thesis §6.4 (its Figs. 6.2 to 6.8), what the reduced models of its §6.5 are worth on a
+//! falling plate and on the crate's own dynamics (error against horizon), and leaves that a reduced model drives in
+//! rapier (§7.3), and prints the errors.
 //!
 //! ```text
 //! cargo run --release --example reduced_models -- --out out
 //! ```
 
+mod alternatives;
 mod chart;
+mod driven;
 mod errors;
 mod force_coefficients;
 mod free_fall;
@@ -25,11 +28,11 @@ struct Arguments {
     /// Directory for the pictures.
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// Draw only these: linear, falling, coupled, kirchhoff, horizon.
+    /// Draw only these: linear, falling, coupled, kirchhoff, planar, plate, card, driven.
     #[arg(
         long,
         value_delimiter = ',',
-        default_value = "linear,falling,coupled,kirchhoff,horizon"
+        default_value = "linear,falling,coupled,kirchhoff,planar,plate,card,driven"
     )]
     only: Vec<String>,
     /// Print the numbers behind the pictures as JSON.
@@ -40,12 +43,15 @@ struct Arguments {
 type Outcome = Result<serde_json::Value, Box<dyn Error>>;
 type Figure = fn(&Path, &ProgressBar) -> Outcome;
 
-const FIGURES: [(&str, Figure); 5] = [
+const FIGURES: [(&str, Figure); 8] = [
     ("linear", thesis::linear_problem),
     ("falling", thesis::falling),
     ("coupled", thesis::coupled),
     ("kirchhoff", thesis::kirchhoff),
-    ("horizon", horizon::horizon),
+    ("planar", horizon::planar),
+    ("plate", horizon::plate_in_water),
+    ("card", horizon::card_in_air),
+    ("driven", driven::driven),
 ];
 
 fn run(arguments: &Arguments) -> Result<(), String> {

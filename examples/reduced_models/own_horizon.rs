@@ -2,13 +2,13 @@
 //! in a plane. Error against horizon, off the grid.
 
 use super::errors::{Errors, Truth};
-use super::force_coefficients::{Motions, SeparatedForces};
+use super::force_coefficients::SeparatedFall;
 use super::free_fall::{Domain, GRAVITY, Specimen};
 use indicatif::ProgressBar;
 use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
 use rapier3d_immersed::reduced::Axis;
-use rapier3d_immersed::reduced::CrossParams;
 use rapier3d_immersed::reduced::Tolerances;
+use rapier3d_immersed::reduced::{CrossParams, Motions};
 use rapier3d_immersed::reduced::{FlowMap, TrajectorySurrogate};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -84,7 +84,7 @@ fn forces(
 ) -> Result<Errors, Box<dyn Error>> {
     // The acceleration is linear in the coefficients.
     let axes = domain.body_axes(2, 4)?;
-    let (separated, _) = SeparatedForces::bake(specimen, motions, speeds, axes, params)?;
+    let (separated, _) = SeparatedFall::bake(specimen, motions, speeds, axes, params)?;
     let tolerances = Tolerances {
         relative: 1e-6,
         absolute: 1e-6,
@@ -211,7 +211,14 @@ pub fn card(domain: &Domain, bar: &ProgressBar) -> Result<Curves, Box<dyn Error>
         max_rank: 60,
         ..CrossParams::default()
     };
-    let forces = forces(&specimen, domain, &truth, Motions::Any, (0.05, 6.0), &many)?;
+    let forces = forces(
+        &specimen,
+        domain,
+        &truth,
+        Motions::Turned,
+        (0.05, 6.0),
+        &many,
+    )?;
     Ok(vec![(TRAJECTORY, trajectories), (FORCES, forces)])
 }
 

@@ -310,7 +310,7 @@ fn cost(system: &QuadraticSystem, time: &Axis) -> Result<(Panel, f64), Box<dyn s
 
 /// Thesis Fig. 6.8.
 pub fn kirchhoff(path: &Path, _: &ProgressBar) -> Outcome {
-    let system = kirchhoff_ellipsoid(&Axis::spectral(0.0, 1.0, 5)?);
+    let system = kirchhoff_ellipsoid(&Axis::spectral(0.0, 1.0, 5)?)?;
     let time = Axis::time(0.0, 1.0, 3, 3)?;
     let checks = Checks::new(&system, 1.0, 300);
     let mut history = Vec::new();

@@ -115,6 +115,9 @@ impl Part {
         self.hydro.check_numbers()?;
         if let Some(law) = &self.law {
             law.check()?;
+            if let PartLaw::Separated(law) = law {
+                law.check_shape(&self.hydro)?;
+            }
         }
         let pose = &self.pose;
         Error::check_all_finite("position of a part", pose.translation.vector.as_slice())?;

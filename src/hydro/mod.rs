@@ -25,7 +25,9 @@ pub use added_mass::AddedMass;
 pub use bluff_shape::BluffShape;
 pub use ellipsoid::StokesResistance;
 pub use hull::{Hull, Submerged, Waterplane};
-pub use part_law::{CustomLaw, Damping, DragBox, PartLaw, PartMotion, PolarRow, PolarTable};
+pub use part_law::{
+    CustomLaw, Damping, DragBox, PartLaw, PartMotion, PolarRow, PolarTable, SeparatedLaw,
+};
 pub use planform::Planform;
 pub use properties::HydroProperties;
 pub use scope::OutOfScope;

@@ -1,6 +1,7 @@
 //! Saving and loading, in postcard's encoding.
 
 use super::separated::Separated;
+use super::separated_forces::SeparatedForces;
 use super::surrogate::{FlowMap, TrajectorySurrogate};
 use super::tensor_train::TensorTrain;
 use crate::error::Error;
@@ -38,6 +39,7 @@ saved!(Separated, b"R3DI-SEP", "separated representation");
 saved!(TensorTrain, b"R3DI-TTR", "tensor train");
 saved!(TrajectorySurrogate, b"R3DI-TRJ", "trajectory surrogate");
 saved!(FlowMap, b"R3DI-FLO", "flow map");
+saved!(SeparatedForces, b"R3DI-SFO", "separated forces");
 
 #[cfg(test)]
 mod tests {

@@ -117,12 +117,18 @@ impl TensorTrain {
     /// # Panics
     /// If `point` has not one coordinate per axis or `value` not one entry per output.
     pub fn evaluate_into(&self, point: &[f64], value: &mut [f64], scratch: &mut Vec<f64>) {
-        assert_eq!(point.len(), self.axes.len(), "one coordinate per axis");
-        assert_eq!(value.len(), self.outputs, "one entry per output");
         let widest = self.cores.iter().map(|core| core.right).max().unwrap_or(1);
         scratch.clear();
         scratch.resize(2 * widest, 0.0);
-        let (mut row, mut next) = scratch.split_at_mut(widest);
+        self.contract(point, value, scratch);
+    }
+
+    /// The same with scratch memory of at least twice the largest rank.
+    pub(crate) fn contract(&self, point: &[f64], value: &mut [f64], scratch: &mut [f64]) {
+        assert_eq!(point.len(), self.axes.len(), "one coordinate per axis");
+        assert_eq!(value.len(), self.outputs, "one entry per output");
+        let half = scratch.len() / 2;
+        let (mut row, mut next) = scratch.split_at_mut(half);
         row[0] = 1.0;
         let mut basis = [0.0; MAX_DEGREE + 1];
         for ((axis, core), x) in self.axes.iter().zip(&self.cores).zip(point) {

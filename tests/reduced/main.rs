@@ -3,6 +3,7 @@
 mod anchors;
 #[path = "../../examples/identify/card.rs"]
 mod card;
+mod driven;
 #[path = "../../examples/reduced_models/errors.rs"]
 mod errors;
 #[allow(dead_code, reason = "the example writes them, too")]
@@ -19,6 +20,7 @@ mod identify;
 mod identify_card;
 #[path = "../../examples/tracks/measured.rs"]
 mod measured;
+mod kirchhoff;
 mod own_dynamics;
 mod surrogate;
 mod thesis;

@@ -2,13 +2,13 @@
 //! and a plate under the default law. Errors off the grid, relative to the spread over the domain.
 
 use crate::errors::Truth;
-use crate::force_coefficients::{Motions, SeparatedForces};
+use crate::force_coefficients::SeparatedFall;
 use crate::free_fall::{Domain, Specimen};
 use rapier3d_immersed::ThesisLaw;
 use rapier3d_immersed::reduced::Axis;
-use rapier3d_immersed::reduced::CrossParams;
 use rapier3d_immersed::reduced::Tolerances;
 use rapier3d_immersed::reduced::TrajectorySurrogate;
+use rapier3d_immersed::reduced::{CrossParams, Motions};
 
 fn truth(specimen: &Specimen, domain: &Domain, horizons: &[f64], count: usize) -> Truth {
     let axes = domain.axes([2, 2, 2]).unwrap();
@@ -55,8 +55,8 @@ fn force_errors(
         ..CrossParams::default()
     };
     let axes = domain.body_axes(2, 3).unwrap();
-    let (forces, report) = SeparatedForces::bake(specimen, motions, speeds, axes, &params).unwrap();
-    println!("{report:?}, ranks {:?}", forces.forces.ranks());
+    let (forces, report) = SeparatedFall::bake(specimen, motions, speeds, axes, &params).unwrap();
+    println!("{report:?}, ranks {:?}", forces.forces.train().ranks());
     let tolerances = Tolerances {
         relative: 1e-6,
         absolute: 1e-6,
@@ -110,7 +110,7 @@ fn separated_forces_follow_the_card() {
     let errors = force_errors(
         &card,
         &Domain::ZIGZAG,
-        Motions::Any,
+        Motions::Turned,
         (0.05, 6.0),
         400_000,
         &[0.1, 0.5],

@@ -243,9 +243,9 @@ fn the_singular_corner_is_reported() {
 /// `kirchhoff_ellipsoid`. Error of û ≤ 1e-2 relative.
 #[test]
 fn kirchhoff_with_six_initial_velocities() {
-    let system = kirchhoff_ellipsoid(&Axis::spectral(0.0, 1.0, 5).unwrap());
+    let system = kirchhoff_ellipsoid(&Axis::spectral(0.0, 1.0, 5).unwrap()).unwrap();
     let time = Axis::time(0.0, 1.0, 2, 3).unwrap();
-    let references = references::<6>(&system, 1.0, 150);
+    let references = references::<9>(&system, 1.0, 150);
     let params = EvolutionParams {
         residual_points: 200,
         coupling: Coupling::Decoupled,

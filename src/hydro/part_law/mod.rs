@@ -3,14 +3,17 @@
 mod custom;
 mod damping;
 mod drag_box;
+mod frozen_force;
 pub(crate) mod place;
 mod planform;
 mod polar_table;
+mod separated;
 
 pub use custom::{CustomLaw, PartMotion};
 pub use damping::Damping;
 pub use drag_box::DragBox;
 pub use polar_table::{PolarRow, PolarTable};
+pub use separated::SeparatedLaw;
 
 use super::HydroProperties;
 use super::viscous::force_factors::Factored;
@@ -26,6 +29,7 @@ use fearless_simd::Simd;
 use place::{CoupledMass, HingePlace, PartPlace};
 use polar_table::{PolarConstants, Section};
 use rapier3d::na::{Matrix3, Vector3};
+use separated::PreparedSeparated;
 
 /// What gives the fluid's force on a part of a body.
 // One per part of a description, and most are of the larger variants: a box would save nothing.
@@ -45,6 +49,8 @@ pub enum PartLaw {
     DragBox(DragBox),
     /// Linear and quadratic damping in six degrees of freedom.
     Damping(Damping),
+    /// Another law as a reduced model.
+    Separated(SeparatedLaw),
     /// A closure. It cannot be saved in a snapshot.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     Custom(CustomLaw),
@@ -74,6 +80,12 @@ impl From<Damping> for PartLaw {
     }
 }
 
+impl From<SeparatedLaw> for PartLaw {
+    fn from(law: SeparatedLaw) -> Self {
+        Self::Separated(law)
+    }
+}
+
 impl From<CustomLaw> for PartLaw {
     fn from(law: CustomLaw) -> Self {
         Self::Custom(law)
@@ -88,6 +100,7 @@ impl PartLaw {
             Self::Viscous(law) => law.check(),
             Self::DragBox(law) => law.check(),
             Self::Damping(law) => law.check(),
+            Self::Separated(law) => law.check(),
             Self::Polar(_) | Self::Custom(_) => Ok(()),
         }
     }
@@ -100,6 +113,7 @@ impl PartLaw {
             Self::Polar(_) | Self::DragBox(_) | Self::Custom(_) => 0.0,
             // Vehicle models have the Coriolis matrix of the added mass beside the damping.
             Self::Damping(_) => 1.0,
+            Self::Separated(law) => law.munk_factor(),
         }
     }
 
@@ -147,6 +161,10 @@ impl PartLaw {
                 let constants = DampingConstants::new(damping, mass, length);
                 (PreparedPart::Damping(constants), Vector3::zeros(), frame)
             }
+            Self::Separated(law) => {
+                let (law, point, axes) = law.prepare(hydro, fluid, mass, length);
+                (PreparedPart::Separated(law), point, axes)
+            }
             Self::Custom(law) => {
                 let law = PreparedCustom::new(law, density, kinematic_viscosity, mass, length);
                 (PreparedPart::Custom(law), Vector3::zeros(), frame)
@@ -164,6 +182,7 @@ pub(crate) enum PreparedPart<T> {
     Polar(PolarConstants<T>, PolarTable),
     DragBox(DragBoxConstants<T>),
     Damping(DampingConstants<T>),
+    Separated(PreparedSeparated),
     Custom(PreparedCustom),
 }
 
@@ -187,7 +206,7 @@ impl PreparedPart<f64> {
                 let lift = law.matrix(table, place, v, [0.0, factors.translational_lift]);
                 [drag, lift, none(), none()]
             }
-            Self::DragBox(_) | Self::Damping(_) | Self::Custom(_) => {
+            Self::DragBox(_) | Self::Damping(_) | Self::Separated(_) | Self::Custom(_) => {
                 let all = self.matrix(Exact, place, v, factors);
                 [all, none(), none(), none()]
             }
@@ -201,6 +220,7 @@ impl PreparedPart<f64> {
             Self::Polar(law, table) => PreparedPart::Polar(law.rounded(), table.clone()),
             Self::DragBox(law) => PreparedPart::DragBox(law.rounded()),
             Self::Damping(law) => PreparedPart::Damping(law.rounded()),
+            Self::Separated(law) => PreparedPart::Separated(law.clone()),
             Self::Custom(law) => PreparedPart::Custom(law.clone()),
         }
     }
@@ -214,6 +234,7 @@ impl PreparedPart<f32> {
             Self::Polar(law, _) => law.is_finite(),
             Self::DragBox(law) => law.is_finite(),
             Self::Damping(law) => law.is_finite(),
+            Self::Separated(law) => law.is_finite(),
             Self::Custom(_) => true,
         }
     }
@@ -322,6 +343,7 @@ impl<K: Copy + std::fmt::Debug + PartialEq + 'static> PreparedPart<K> {
             }
             Self::DragBox(law) => raise.drag_box(law).matrix(place, v, factors.drag),
             Self::Damping(law) => raise.damping(law).matrix(place, v, factors.drag),
+            Self::Separated(law) => law.matrix(place, v, factors.drag),
             Self::Custom(law) => law.matrix(place, v, factors.drag),
         }
     }

@@ -1,0 +1,269 @@
+//! A law as a reduced model: the force of another law, separated over all motions.
+
+use super::frozen_force::of_force;
+use super::place::{PartPlace, moved, velocity_at};
+use super::{Exact, PartLaw};
+use crate::error::Error;
+use crate::fluid::Fluid;
+use crate::hydro::HydroProperties;
+use crate::hydro::viscous::ForceFactors;
+use crate::math::Scalar;
+use crate::math::spatial::{Blocks, Twist, Wrench};
+use crate::reduced::{Axis, CrossParams, CrossReport, Motions, SeparatedForces};
+use rapier3d::na::{Matrix3, Vector3};
+use std::sync::Arc;
+
+/// Random motions that the error is measured at.
+const ERROR_POINTS: usize = 20_000;
+/// By how much a part's proportions may differ from those that the law was baked for.
+const SAME_SHAPE: f64 = 0.01;
+
+/// Another law of one shape as a reduced model (thesis § 7.3): its force and torque
+/// as a tensor train over all motions, which then drives bodies in its place.
+///
+/// It is dimensionless: force over ρV²L² and torque over ρV²L³ by direction of the motion and Reynolds number
+/// VL/ν, where L is the larger half extent of the planform and V = √(u² + L²ω²). One law serves all sizes of
+/// the shape in all fluids. A separated law takes the same time whatever it stands for: for a law as cheap as the default one that
+/// is a loss (see the table of [`reduced`](crate::reduced)), for a [`CustomLaw`](crate::CustomLaw) that solves
+/// for the flow it is what makes it fit for a step.
+///
+/// **It cannot blow up.** What of the approximation would give energy to the motion (positive power) is left out, as for a
+/// [`CustomLaw`](crate::CustomLaw), so that it is passive at any step size and whatever its error. Every direction of
+/// velocity and spin is within its table. Above its Reynolds numbers coefficients stay as at the largest, below they grow as
+/// 1/Re, so that forces fall linearly as in creeping flow. A step allocates nothing, and the law is part of snapshots.
+///
+/// ```
+/// use rapier3d_immersed::rapier3d::prelude::*;
+/// use rapier3d_immersed::reduced::CrossParams;
+/// use rapier3d_immersed::{DragBox, HydroProperties, ImmersedBody, Part, SeparatedLaw};
+///
+/// let hydro = HydroProperties::from_shape(&Cuboid::new(Vector::new(0.04, 0.01, 0.02)))?;
+/// let areas = rapier3d_immersed::rapier3d::na::Vector3::new(4e-4, 3e-3, 9e-4);
+/// let drag = DragBox::new(areas, areas)?;
+/// let params = CrossParams { tolerance: 0.02, max_rank: 12, max_evaluations: 20_000, ..CrossParams::default() };
+/// let (law, _) = SeparatedLaw::bake(&hydro, drag, [1e3, 1e4], &params)?;
+/// assert!(law.error()[0] < 0.1); // relative, root mean square over all motions
+/// let body = ImmersedBody::new(hydro.clone()).with_parts([Part::new(hydro).with_law(law)]);
+/// assert!(body.check().is_ok());
+/// # Ok::<(), rapier3d_immersed::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct SeparatedLaw {
+    forces: Arc<SeparatedForces>,
+    /// Half extents of the planform over the largest.
+    proportions: Vector3<f64>,
+    /// Share of the coupling of the added mass that the law keeps.
+    munk: f64,
+    error: [f64; 2],
+}
+
+/// Clones are equal without a look at the table.
+impl PartialEq for SeparatedLaw {
+    fn eq(&self, other: &Self) -> bool {
+        (Arc::ptr_eq(&self.forces, &other.forces) || self.forces == other.forces)
+            && (self.proportions, self.munk, self.error)
+                == (other.proportions, other.munk, other.error)
+    }
+}
+
+fn proportions(hydro: &HydroProperties) -> Vector3<f64> {
+    hydro.planform.half_extents / hydro.planform.half_extents.x
+}
+
+impl SeparatedLaw {
+    /// Separates a law for the shape of `hydro` between two Reynolds numbers VL/ν, on the coordinates that
+    /// [`Motions::Mirrored`] proposes.
+    ///
+    /// # Errors
+    /// Those of [`PartLaw::check`], [`HydroProperties::check`] and [`SeparatedForces::bake`]: a law that
+    /// reflections of the plate change ([`ThesisLaw`](crate::ThesisLaw), a cambered section) has no such separation.
+    pub fn bake(
+        hydro: &HydroProperties,
+        law: impl Into<PartLaw>,
+        reynolds_numbers: [f64; 2],
+        params: &CrossParams,
+    ) -> Result<(Self, CrossReport), Error> {
+        let [slow, fast] = reynolds_numbers;
+        let axes = Motions::Mirrored.axes(slow, fast)?;
+        Self::bake_on(hydro, law, axes, params)
+    }
+
+    /// The same on coordinates of the user's own: see [`SeparatedForces`], with Reynolds numbers for speeds.
+    ///
+    /// # Errors
+    /// Those of [`SeparatedLaw::bake`].
+    pub fn bake_on(
+        hydro: &HydroProperties,
+        law: impl Into<PartLaw>,
+        axes: Vec<Axis>,
+        params: &CrossParams,
+    ) -> Result<(Self, CrossReport), Error> {
+        let law = law.into();
+        hydro.check()?;
+        law.check()?;
+        // Any fluid will do, and a mass and length of 1: the law is dimensionless.
+        let fluid = Fluid::WATER;
+        let (density, viscosity) = (
+            f64::from(fluid.density()),
+            f64::from(fluid.kinematic_viscosity()),
+        );
+        let length = hydro.planform.half_extents.x;
+        let (prepared, point, axes_of_law) = law.prepare(hydro, &fluid, 1.0, 1.0);
+        // About the planform's center, in its axes.
+        let plate = hydro.planform.axes.inverse();
+        let place = PartPlace {
+            position: plate * (point - hydro.planform.center),
+            turn: plate.matrix() * axes_of_law,
+        };
+        let factors = ForceFactors::default();
+        let per_force = 1.0 / (density * viscosity * viscosity);
+        let model = |u: &Vector3<f64>, w: &Vector3<f64>, _: &[f64]| {
+            let twist = Twist {
+                linear: u * (viscosity / length),
+                angular: w * (viscosity / (length * length)),
+            };
+            let n = prepared.matrix(Exact, &place, &twist, factors);
+            let force = n.apply(&twist);
+            [force.force * per_force, force.torque * (per_force / length)]
+        };
+        let (forces, report) =
+            SeparatedForces::bake(Motions::Mirrored, axes, Vec::new(), params, model)?;
+        let law = Self {
+            proportions: proportions(hydro),
+            munk: law.munk_factor(hydro),
+            error: forces.error(ERROR_POINTS, params.seed.wrapping_add(1), model),
+            forces: Arc::new(forces),
+        };
+        law.check()?;
+        Ok((law, report))
+    }
+
+    /// The error of force and torque at 20 000 random motions off the nodes: root mean square over that of the force, and
+    /// the largest over the same.
+    pub fn error(&self) -> [f64; 2] {
+        self.error
+    }
+
+    /// The separated forces, of Reynolds numbers uL/ν and ωL²/ν, over ρν² and ρν²L.
+    pub fn forces(&self) -> &SeparatedForces {
+        &self.forces
+    }
+
+    pub(super) fn munk_factor(&self) -> f64 {
+        self.munk
+    }
+
+    pub(super) fn check(&self) -> Result<(), Error> {
+        self.forces.check()?;
+        let mirrored = self.forces.motions() == Motions::Mirrored;
+        let axes = self.forces.train().axes().len();
+        Error::check(
+            "axes of a separated law",
+            axes as f64,
+            mirrored && axes == 6,
+            "the six of mirrored motions",
+        )?;
+        Error::check_range("share of the Munk moment", self.munk, 0.0, 1.0)?;
+        Error::check_all_finite(
+            "proportions of a separated law",
+            self.proportions.as_slice(),
+        )
+    }
+
+    /// # Errors
+    /// [`Error::InvalidParameter`] if the law is not one of this shape.
+    pub(crate) fn check_shape(&self, hydro: &HydroProperties) -> Result<(), Error> {
+        let of_part = proportions(hydro);
+        for i in 1..3 {
+            let same = (of_part[i] - self.proportions[i]).abs() <= SAME_SHAPE * self.proportions[i];
+            Error::check(
+                "half extent of a part's planform over its largest",
+                of_part[i],
+                same,
+                "that of the shape that its separated law was baked for",
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The law's constants, its point and its axes: see [`PartLaw`].
+    pub(super) fn prepare(
+        &self,
+        hydro: &HydroProperties,
+        fluid: &Fluid,
+        mass: f64,
+        length: f64,
+    ) -> (PreparedSeparated, Vector3<f64>, Matrix3<f64>) {
+        let (density, viscosity) = (
+            f64::from(fluid.density()),
+            f64::from(fluid.kinematic_viscosity()),
+        );
+        let own = hydro.planform.half_extents.x;
+        let force = density * viscosity * viscosity / mass;
+        let prepared = PreparedSeparated {
+            law: self.clone(),
+            linear: own / viscosity,
+            angular: own * own / (viscosity * length),
+            force,
+            torque: force * own / length,
+        };
+        (
+            prepared,
+            hydro.planform.center,
+            *hydro.planform.axes.matrix(),
+        )
+    }
+}
+
+/// What a step needs of a [`SeparatedLaw`].
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PreparedSeparated {
+    law: SeparatedLaw,
+    /// From u and w, m/s, to Reynolds numbers, s/m.
+    linear: f64,
+    angular: f64,
+    /// From dimensionless force and torque to the integrator's units.
+    force: f64,
+    torque: f64,
+}
+
+impl PreparedSeparated {
+    /// Whether every factor is a finite number of single precision, in which what they make is kept.
+    pub fn is_finite(&self) -> bool {
+        [self.linear, self.angular, self.force, self.torque]
+            .iter()
+            .all(|x| (*x as f32).is_finite())
+    }
+
+    #[inline(always)]
+    pub fn matrix<T: Scalar>(&self, place: &PartPlace<T>, v: &Twist<T>, factor: T) -> Blocks<T> {
+        let u = place.back(&velocity_at(v, &place.position));
+        let w = place.back(&v.angular);
+        let [fx, fy, fz, tx, ty, tz] = T::by_lane([u.x, u.y, u.z, w.x, w.y, w.z], |v| {
+            let u = Vector3::new(v[0], v[1], v[2]) * self.linear;
+            let w = Vector3::new(v[3], v[4], v[5]) * self.angular;
+            let [force, torque] = self.law.forces.evaluate(&u, &w, &[]);
+            let (force, torque) = (force * self.force, torque * self.torque);
+            let all = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
+            // What is no number is no force.
+            if all.iter().all(|x| x.is_finite()) {
+                all
+            } else {
+                [0.0; 6]
+            }
+        });
+        let own = Twist {
+            linear: place.out(&u),
+            angular: place.out(&w),
+        };
+        let force = Wrench {
+            force: place.out(&Vector3::new(fx, fy, fz)) * factor,
+            torque: place.out(&Vector3::new(tx, ty, tz)) * factor,
+        };
+        moved(&of_force(&force, &own), &place.position)
+    }
+}
