@@ -1,15 +1,20 @@
 //! Costs of reduced models: one point, a grid of initial values against solving each (thesis
-//! Fig. 6.7b), and what baking takes.
+//! Fig. 6.7b), what baking takes, and a step under a reduced model of the default law.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
-use rapier3d::na::DVector;
+use rapier3d::na::{DVector, Matrix3, Vector3};
+use rapier3d::prelude::{Cuboid, Vector};
 use rapier3d_immersed::reduced::Axis;
 use rapier3d_immersed::reduced::Canonical;
+use rapier3d_immersed::reduced::CrossParams;
 use rapier3d_immersed::reduced::PgdParams;
 use rapier3d_immersed::reduced::Separated;
 use rapier3d_immersed::reduced::example_systems::coupled_triple;
 use rapier3d_immersed::reduced::{Coupling, EvolutionParams, evolve};
+use rapier3d_immersed::{
+    DryMass, Fluid, FreeBody, HydroProperties, ImmersedBody, Part, SeparatedLaw, ViscousLaw,
+};
 use std::hint::black_box;
 
 /// The size the thesis states in §6.2.1: 15 modes, 6 dimensions, 300 nodes each.
@@ -99,9 +104,48 @@ fn grid_of_initial_values(criterion: &mut Criterion) {
     });
 }
 
+/// A leaf's force by the reduced model of the default law, and a step of a leaf under either.
+fn separated_law(criterion: &mut Criterion) {
+    let shape = Cuboid::new(Vector::new(0.0365, 0.00015, 0.021));
+    let hydro = HydroProperties::from_shape(&shape).unwrap();
+    let mass = 300.0 * hydro.volume;
+    let dry = DryMass {
+        mass,
+        center: Vector3::zeros(),
+        inertia: Matrix3::from_diagonal(&Vector3::new(1.5e-4, 5.9e-4, 4.4e-4)) * mass,
+    };
+    let mut step = |name: &str, body: &ImmersedBody| {
+        let mut body = FreeBody::new(body, &dry, &Fluid::AIR).unwrap();
+        body.set_velocity(Vector3::new(0.5, -1.0, 0.3), Vector3::new(2.0, 1.0, 5.0));
+        let gravity = Vector3::new(0.0, -9.81, 0.0);
+        criterion.bench_function(name, |b| b.iter(|| body.step(1.0 / 240.0, gravity)));
+    };
+    step(
+        "a leaf's step, default law",
+        &ImmersedBody::new(hydro.clone()),
+    );
+    for max_rank in [8, 16, 32] {
+        let params = CrossParams {
+            tolerance: 1e-3,
+            max_rank,
+            max_evaluations: 300_000,
+            rank_growth: 4,
+            ..CrossParams::default()
+        };
+        let law = ViscousLaw::default();
+        let (law, _) = SeparatedLaw::bake(&hydro, law, [100.0, 2e4], &params).unwrap();
+        let part = Part::new(hydro.clone()).with_law(law);
+        let body = ImmersedBody::new(hydro.clone()).with_parts([part]);
+        step(
+            &format!("a leaf's step, separated law of rank {max_rank}"),
+            &body,
+        );
+    }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = one_point, grid_of_initial_values
+    targets = one_point, grid_of_initial_values, separated_law
 }
 criterion_main!(benches);

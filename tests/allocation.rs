@@ -9,9 +9,11 @@ use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{Key, MotionPath, WindResponse};
 use rapier3d_immersed::playback::{Drive, MotionPlayer, MotionPlayers};
 use rapier3d_immersed::rapier3d::prelude::*;
+use rapier3d_immersed::reduced::CrossParams;
 use rapier3d_immersed::turbulence::{Turbulence, TurbulenceState};
 use rapier3d_immersed::{
-    Fluid, HydroProperties, ImmersedBody, Immersion, Medium, Part, RapierSets,
+    Fluid, HydroProperties, ImmersedBody, Immersion, Medium, Part, RapierSets, SeparatedLaw,
+    ViscousLaw,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Arc;
@@ -61,8 +63,14 @@ fn touching(world: &mut PhysicsWorld, leaves: &[RigidBodyHandle]) -> usize {
 /// In turn: the counter is one for all threads.
 #[test]
 fn steps_allocate_nothing() {
-    before_and_after_allocate_nothing_in_flight(0);
-    before_and_after_allocate_nothing_in_flight(3);
+    let strips = |hydro| {
+        let plate = Cuboid::new(Vector::new(0.04, 0.0003, 0.02));
+        let strips = HydroProperties::strips_of_shape(&plate, 3).unwrap();
+        ImmersedBody::new(hydro).with_parts(strips.into_iter().map(Part::new))
+    };
+    before_and_after_allocate_nothing_in_flight(ImmersedBody::new, false);
+    before_and_after_allocate_nothing_in_flight(strips, true);
+    before_and_after_allocate_nothing_in_flight(separated, false);
     for kinematic in [true, false] {
         players_allocate_nothing(kinematic);
     }
@@ -158,7 +166,23 @@ fn players_allocate_nothing(kinematic: bool) {
     assert_eq!(ours, least, "kinematic: {kinematic}");
 }
 
-fn before_and_after_allocate_nothing_in_flight(parts: usize) {
+/// Under a reduced model of the default law.
+fn separated(hydro: HydroProperties) -> ImmersedBody {
+    let params = CrossParams {
+        max_rank: 8,
+        max_evaluations: 10_000,
+        ..CrossParams::default()
+    };
+    let law = ViscousLaw::default();
+    let (law, _) = SeparatedLaw::bake(&hydro, law, [100.0, 1e4], &params).unwrap();
+    let part = Part::new(hydro.clone()).with_law(law);
+    ImmersedBody::new(hydro).with_parts([part])
+}
+
+fn before_and_after_allocate_nothing_in_flight(
+    body: impl Fn(HydroProperties) -> ImmersedBody,
+    turbulent: bool,
+) {
     let mut world = PhysicsWorld::new();
     let leaves: Vec<_> = (0..100)
         .map(|i| {
@@ -178,17 +202,13 @@ fn before_and_after_allocate_nothing_in_flight(parts: usize) {
     let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaves[0]).unwrap();
     let mut immersion = Immersion::new(Fluid::AIR);
     immersion.set_flow(rapier3d_immersed::flow::Uniform::new(1.0, 0.0, 0.0));
-    let mut body = ImmersedBody::new(hydro);
-    if parts > 0 {
-        let plate = Cuboid::new(Vector::new(0.04, 0.0003, 0.02));
-        let strips = HydroProperties::strips_of_shape(&plate, parts).unwrap();
-        body = body.with_parts(strips.into_iter().map(Part::new));
+    if turbulent {
         immersion.set_turbulence(Turbulence::Homogeneous(TurbulenceState {
             kinetic_energy: 0.1,
             dissipation: 0.05,
         }));
     }
-    immersion.insert_all(leaves.iter().copied(), body);
+    immersion.insert_all(leaves.iter().copied(), body(hydro));
     // Lists grow to their size.
     for _ in 0..200 {
         immersion.step(&mut world);

@@ -1,5 +1,6 @@
 //! Laws of the reduced models.
 
+mod alternatives;
 mod anchors;
 #[path = "../../examples/identify/card.rs"]
 mod card;
