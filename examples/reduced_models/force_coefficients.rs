@@ -8,6 +8,8 @@ use rapier3d_immersed::reduced::{
     integrate,
 };
 
+use std::f64::consts::FRAC_PI_2;
+
 /// Long enough that the rounding of a step does not matter, short enough that its truncation
 /// does not either, s.
 const INSTANT: f64 = 1e-7;
@@ -32,7 +34,12 @@ impl SeparatedFall {
         params: &CrossParams,
     ) -> Result<(Self, CrossReport), Error> {
         let length = specimen.semi_axes.x;
-        let axes = motions.axes(speeds.0, speeds.1)?;
+        let mut axes = motions.axes(speeds.0, speeds.1)?;
+        if motions == Motions::InPlane {
+            // The default law stalls within .1 of sin α, earlier or later as the plate turns.
+            axes[0] = Axis::elements(0.0, FRAC_PI_2, 16, 3)?;
+            axes[1] = Axis::elements(-FRAC_PI_2, FRAC_PI_2, 32, 3)?;
+        }
         let forces = |u: &Vector3<f64>, w: &Vector3<f64>, parameters: &[f64]| {
             let a = acceleration(specimen, parameters, *u, w / length, Vector3::zeros());
             let at = |k: usize| Vector3::new(a[k], a[k + 1], a[k + 2]);

@@ -241,7 +241,11 @@ pub fn plate(domain: &Domain, bar: &ProgressBar) -> Result<Curves, Box<dyn Error
     };
     let flow_map = flow_map(&specimen, domain, &truth, &many)?;
     let speeds = (0.002, 2.0);
-    let forces = forces(&specimen, domain, &truth, Motions::InPlane, speeds, &many)?;
+    let more = CrossParams {
+        max_evaluations: 400_000,
+        ..many
+    };
+    let forces = forces(&specimen, domain, &truth, Motions::InPlane, speeds, &more)?;
     Ok(vec![
         (TRAJECTORY, trajectories),
         (FLOW_MAP, flow_map),

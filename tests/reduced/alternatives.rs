@@ -56,7 +56,7 @@ fn times(end: f64) -> Vec<f64> {
     (0..=count).map(|i| f64::from(i) / 20.0).collect()
 }
 
-/// Forty trajectories over 5 time units span the others; the equations at as many points as modes choose among them.
+/// Forty trajectories over 2 time units span the others; the equations at as many points as modes choose among them.
 #[test]
 fn empirical_interpolation_follows_flutter() {
     let rate = |p: &[f64], x: &[f64], out: &mut [f64]| plate(p).rate(x, out);
@@ -64,21 +64,21 @@ fn empirical_interpolation_follows_flutter() {
         .into_iter()
         .map(|p| Snapshot {
             states: plate(&p)
-                .trajectory(&start(&p), &times(5.0), TOLERANCES)
+                .trajectory(&start(&p), &times(2.0), TOLERANCES)
                 .concat(),
             parameters: p,
         })
         .collect();
     let model = DeimEvolution::bake(6, &snapshots, rate, &DeimParams::default()).unwrap();
     let mut solved = 0;
-    let error = truth(5.0).errors(|p, _| {
+    let error = truth(2.0).errors(|p, _| {
         let (states, converged) = model.solve(p, &start(p), rate);
         solved += usize::from(converged);
         vec![[states[states.len() - 2], 0.0]]
     })[0]
         .1;
     println!("{} modes, {solved} of 30, error {error:.1e}", model.modes());
-    assert!(solved >= 29 && error < 1e-2, "{solved}, {error:e}");
+    assert!(solved == 30 && error < 1e-2, "{solved}, {error:e}");
 }
 
 /// Linearizations a tenth of the state's range apart are good to some percent over 5 time units.

@@ -40,7 +40,7 @@ const SAME_SHAPE: f64 = 0.01;
 /// let hydro = HydroProperties::from_shape(&Cuboid::new(Vector::new(0.04, 0.01, 0.02)))?;
 /// let areas = rapier3d_immersed::rapier3d::na::Vector3::new(4e-4, 3e-3, 9e-4);
 /// let drag = DragBox::new(areas, areas)?;
-/// let params = CrossParams { tolerance: 0.02, max_rank: 12, max_evaluations: 20_000, ..CrossParams::default() };
+/// let params = CrossParams { tolerance: 0.02, max_rank: 12, rank_growth: 4, ..CrossParams::default() };
 /// let (law, _) = SeparatedLaw::bake(&hydro, drag, [1e3, 1e4], &params)?;
 /// assert!(law.error()[0] < 0.1); // relative, root mean square over all motions
 /// let body = ImmersedBody::new(hydro.clone()).with_parts([Part::new(hydro).with_law(law)]);
