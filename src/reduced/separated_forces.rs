@@ -475,6 +475,7 @@ mod tests {
         let parameter = vec![Axis::spectral(0.5, 1.5, 2).unwrap()];
         let params = CrossParams {
             tolerance: 1e-3,
+            rank_growth: 4,
             ..CrossParams::default()
         };
         let axes = Motions::Mirrored.axes(0.5, 2.0).unwrap();
