@@ -164,15 +164,15 @@ impl Domain {
         release_angle: (0.1, 0.35),
     };
     /// The plate flutters, everywhere.
-    pub const FLUTTER: Self = Self {
-        name: "plate in water: flutter, ρ_s/ρ_f 2 to 2.6",
+    pub const LIGHT: Self = Self {
+        name: "plate in water: ρ_s/ρ_f 2 to 2.6",
         coefficients: &[],
         density_ratio: (2.0, 2.6),
         release_angle: (0.3, 0.7),
     };
-    /// The plate flutters where it is light, and tumbles where it is heavy.
-    pub const TUMBLING: Self = Self {
-        name: "plate in water: across tumbling, ρ_s/ρ_f 3.8 to 4.8",
+    /// The plate flutters more widely; from 5 on it turns over now and then.
+    pub const HEAVY: Self = Self {
+        name: "plate in water: ρ_s/ρ_f 3.8 to 4.8",
         coefficients: &[],
         density_ratio: (3.8, 4.8),
         release_angle: (0.3, 0.7),

@@ -267,7 +267,7 @@ pub fn planar(path: &Path, bar: &ProgressBar) -> Outcome {
 
 /// The crate's own dynamics: a plate in water under the default law.
 pub fn plate_in_water(path: &Path, bar: &ProgressBar) -> Outcome {
-    let domains = [Domain::FLUTTER, Domain::TUMBLING];
+    let domains = [Domain::LIGHT, Domain::HEAVY];
     let curves = domains.map(|d| own_horizon::plate(&d, bar).map(|c| (d.name, c)));
     let all = curves.into_iter().collect::<Result<_, _>>()?;
     draw_panels(path, ", s", all, serde_json::Map::new())

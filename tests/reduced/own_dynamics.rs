@@ -118,23 +118,24 @@ fn separated_forces_follow_the_card() {
     assert!(errors.iter().all(|error| *error < 0.08), "{errors:?}");
 }
 
-/// In a plane they follow a plate, under a smoother set of the default law's coefficients, across the boundary of flutter and tumbling, where separated
-/// trajectories of it fail; those are accurate where it flutters everywhere.
+/// In a plane they follow a plate under the default law for a quarter of a second, its first swing. Nothing follows a heavy one much
+/// longer: the law's stall is so sudden that its swings amplify small differences, and separated trajectories fail, too. Where it is
+/// light those are accurate for half a second.
 #[test]
-fn separated_forces_cross_the_plates_transition() {
+fn separated_forces_follow_the_plate_for_a_swing() {
     let plate = Specimen::plate().unwrap();
     let errors = force_errors(
         &plate,
-        &Domain::TUMBLING,
+        &Domain::HEAVY,
         Motions::InPlane,
         (0.002, 2.0),
-        30_000,
-        &[0.24, 2.4],
+        100_000,
+        &[0.24],
     );
-    // .03 and .08 of the spread, from forces learned to 1e-4: a third of what trajectories miss.
+    // .0075 of the spread from four times the samples.
     assert!(errors.iter().all(|error| *error < 0.1), "{errors:?}");
-    let trajectory = trajectory_error(&plate, &Domain::TUMBLING, 2.4, 20);
+    let trajectory = trajectory_error(&plate, &Domain::HEAVY, 2.4, 20);
     assert!(trajectory > 0.2, "{trajectory:e}");
-    let inside = trajectory_error(&plate, &Domain::FLUTTER, 2.4, 20);
-    assert!(inside < 0.02, "{inside:e}");
+    let inside = trajectory_error(&plate, &Domain::LIGHT, 0.48, 4);
+    assert!(inside < 0.05, "{inside:e}");
 }
