@@ -44,9 +44,6 @@ impl Default for CrossParams {
     }
 }
 
-/// Error after a sweep over that after the one before from which on the sampling gets nowhere.
-const STUCK: f64 = 0.9;
-
 /// How the sampling went. A sampling that does not converge is no error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CrossReport {
@@ -205,11 +202,6 @@ pub fn cross(
         if report.converged || sampler.known.len() >= params.max_evaluations {
             break;
         }
-        // Where many nodes are zero the lines through those chosen may all miss what is elsewhere: then random ones join.
-        let stuck = match report.errors[..] {
-            [.., before, now] => now > STUCK * before,
-            _ => false,
-        };
         for k in (1..d).rev() {
             let (l, r) = (left[k].clone(), right[k + 1].clone());
             let unfolding = DMatrix::from_fn(sizes[k] * r.len(), l.len(), |row, column| {
@@ -222,9 +214,6 @@ pub fn cross(
                 .iter()
                 .map(|row| [&[(row / r.len()) as u16], &r[row % r.len()][..]].concat());
             right[k] = chosen.collect();
-            if stuck && right[k].len() + params.rank_growth <= params.max_rank {
-                right[k].extend((0..params.rank_growth).map(|_| random_index(k, d)));
-            }
         }
     }
     report.evaluations = sampler.known.len();

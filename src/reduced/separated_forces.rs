@@ -200,7 +200,7 @@ fn turned(v: &Vector3<f64>, (sine, cosine): (f64, f64)) -> Vector3<f64> {
 /// // Drag −|u|u and a damping −|w|w, of a sphere.
 /// let model = |u: &Vector3<f64>, w: &Vector3<f64>, _: &[f64]| [u * -u.norm(), w * -w.norm()];
 /// let axes = Motions::InPlane.axes(0.1, 10.0)?;
-/// let params = CrossParams { tolerance: 1e-4, ..CrossParams::default() };
+/// let params = CrossParams { tolerance: 1e-4, rank_growth: 4, ..CrossParams::default() };
 /// let (forces, _) = SeparatedForces::bake(Motions::InPlane, axes, Vec::new(), &params, model)?;
 /// let (u, w) = (Vector3::new(0.0, -3.0, 4.0), Vector3::new(2.0, 0.0, 0.0));
 /// let [force, torque] = forces.evaluate(&u, &w, &[]);
@@ -220,7 +220,8 @@ pub struct SeparatedForces {
 
 impl SeparatedForces {
     /// Samples `model(u, w, parameters)`, which gives a force (a vector) and a torque (a pseudovector) in body axes, over
-    /// the coordinates `axes` of motions (see [`Motions::axes`]) and over `parameters`.
+    /// the coordinates `axes` of motions (see [`Motions::axes`]) and over `parameters`. Forces are zero on many nodes: let ranks
+    /// grow by four at least ([`CrossParams::rank_growth`]), and look at [`error`](Self::error).
     ///
     /// # Errors
     /// Those of [`cross()`]; [`Error::WrongLength`] for a wrong number of axes; [`Error::InvalidParameter`] for more than 16

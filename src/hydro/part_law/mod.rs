@@ -7,6 +7,7 @@ mod frozen_force;
 pub(crate) mod place;
 mod planform;
 mod polar_table;
+mod separate;
 mod separated;
 
 pub use custom::{CustomLaw, PartMotion};

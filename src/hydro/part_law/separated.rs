@@ -2,19 +2,15 @@
 
 use super::frozen_force::of_force;
 use super::place::{PartPlace, moved, velocity_at};
-use super::{Exact, PartLaw};
 use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
-use crate::hydro::viscous::ForceFactors;
 use crate::math::Scalar;
 use crate::math::spatial::{Blocks, Twist, Wrench};
-use crate::reduced::{Axis, CrossParams, CrossReport, Motions, SeparatedForces};
+use crate::reduced::{Motions, SeparatedForces};
 use rapier3d::na::{Matrix3, Vector3};
 use std::sync::Arc;
 
-/// Random motions that the error is measured at.
-const ERROR_POINTS: usize = 20_000;
 /// By how much a part's proportions may differ from those that the law was baked for.
 const SAME_SHAPE: f64 = 0.01;
 
@@ -53,12 +49,12 @@ const SAME_SHAPE: f64 = 0.01;
     derive(serde::Serialize, serde::Deserialize)
 )]
 pub struct SeparatedLaw {
-    forces: Arc<SeparatedForces>,
+    pub(super) forces: Arc<SeparatedForces>,
     /// Half extents of the planform over the largest.
-    proportions: Vector3<f64>,
+    pub(super) proportions: Vector3<f64>,
     /// Share of the coupling of the added mass that the law keeps.
-    munk: f64,
-    error: [f64; 2],
+    pub(super) munk: f64,
+    pub(super) error: [f64; 2],
 }
 
 /// Clones are equal without a look at the table.
@@ -70,78 +66,12 @@ impl PartialEq for SeparatedLaw {
     }
 }
 
-fn proportions(hydro: &HydroProperties) -> Vector3<f64> {
+/// Half extents of the planform over the largest.
+pub(super) fn proportions(hydro: &HydroProperties) -> Vector3<f64> {
     hydro.planform.half_extents / hydro.planform.half_extents.x
 }
 
 impl SeparatedLaw {
-    /// Separates a law for the shape of `hydro` between two Reynolds numbers VL/ν, on the coordinates that
-    /// [`Motions::Mirrored`] proposes.
-    ///
-    /// # Errors
-    /// Those of [`PartLaw::check`], [`HydroProperties::check`] and [`SeparatedForces::bake`]: a law that
-    /// reflections of the plate change ([`ThesisLaw`](crate::ThesisLaw), a cambered section) has no such separation.
-    pub fn bake(
-        hydro: &HydroProperties,
-        law: impl Into<PartLaw>,
-        reynolds_numbers: [f64; 2],
-        params: &CrossParams,
-    ) -> Result<(Self, CrossReport), Error> {
-        let [slow, fast] = reynolds_numbers;
-        let axes = Motions::Mirrored.axes(slow, fast)?;
-        Self::bake_on(hydro, law, axes, params)
-    }
-
-    /// The same on coordinates of the user's own: see [`SeparatedForces`], with Reynolds numbers for speeds.
-    ///
-    /// # Errors
-    /// Those of [`SeparatedLaw::bake`].
-    pub fn bake_on(
-        hydro: &HydroProperties,
-        law: impl Into<PartLaw>,
-        axes: Vec<Axis>,
-        params: &CrossParams,
-    ) -> Result<(Self, CrossReport), Error> {
-        let law = law.into();
-        hydro.check()?;
-        law.check()?;
-        // Any fluid will do, and a mass and length of 1: the law is dimensionless.
-        let fluid = Fluid::WATER;
-        let (density, viscosity) = (
-            f64::from(fluid.density()),
-            f64::from(fluid.kinematic_viscosity()),
-        );
-        let length = hydro.planform.half_extents.x;
-        let (prepared, point, axes_of_law) = law.prepare(hydro, &fluid, 1.0, 1.0);
-        // About the planform's center, in its axes.
-        let plate = hydro.planform.axes.inverse();
-        let place = PartPlace {
-            position: plate * (point - hydro.planform.center),
-            turn: plate.matrix() * axes_of_law,
-        };
-        let factors = ForceFactors::default();
-        let per_force = 1.0 / (density * viscosity * viscosity);
-        let model = |u: &Vector3<f64>, w: &Vector3<f64>, _: &[f64]| {
-            let twist = Twist {
-                linear: u * (viscosity / length),
-                angular: w * (viscosity / (length * length)),
-            };
-            let n = prepared.matrix(Exact, &place, &twist, factors);
-            let force = n.apply(&twist);
-            [force.force * per_force, force.torque * (per_force / length)]
-        };
-        let (forces, report) =
-            SeparatedForces::bake(Motions::Mirrored, axes, Vec::new(), params, model)?;
-        let law = Self {
-            proportions: proportions(hydro),
-            munk: law.munk_factor(hydro),
-            error: forces.error(ERROR_POINTS, params.seed.wrapping_add(1), model),
-            forces: Arc::new(forces),
-        };
-        law.check()?;
-        Ok((law, report))
-    }
-
     /// The error of force and torque at 20 000 random motions off the nodes: root mean square over that of the force, and
     /// the largest over the same.
     pub fn error(&self) -> [f64; 2] {
@@ -157,6 +87,8 @@ impl SeparatedLaw {
         self.munk
     }
 
+    /// # Errors
+    /// If the table is not one of a law, or its numbers are not finite.
     pub(super) fn check(&self) -> Result<(), Error> {
         self.forces.check()?;
         let mirrored = self.forces.motions() == Motions::Mirrored;
