@@ -19,9 +19,9 @@ mod forecast;
 mod free_fall;
 mod identify;
 mod identify_card;
+mod kirchhoff;
 #[path = "../../examples/tracks/measured.rs"]
 mod measured;
-mod kirchhoff;
 mod own_dynamics;
 mod surrogate;
 mod thesis;
