@@ -68,7 +68,7 @@ struct Options {
     #[arg(long, value_enum, default_value = "default")]
     law: LawName,
     /// Coefficients of the law. thesis: C_D,C_L1,C_L2 or sd, zz, az, ar [default: zz];
-    /// stochastic: drag,lift[,arm]; default: NAME=VALUE,… as the fields of PhysicalLaw
+    /// stochastic: drag,lift[,arm[,damping]]; default: NAME=VALUE,… as the fields of PhysicalLaw
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     coefficients: Option<String>,
     /// Gravity, m/s², downward

@@ -71,8 +71,19 @@ fn stochastic(coefficients: Option<&str>) -> Result<StochasticLaw, String> {
             lift,
             ..standard
         }),
-        [drag, lift, arm] => Ok(StochasticLaw { drag, lift, arm }),
-        _ => Err("this law takes drag,lift or drag,lift,arm".into()),
+        [drag, lift, arm] => Ok(StochasticLaw {
+            drag,
+            lift,
+            arm,
+            ..standard
+        }),
+        [drag, lift, arm, damping] => Ok(StochasticLaw {
+            drag,
+            lift,
+            arm,
+            damping,
+        }),
+        _ => Err("this law takes drag,lift[,arm[,damping]]".into()),
     }
 }
 

@@ -65,10 +65,20 @@ pub enum LangevinMode {
     #[default]
     FluidSeen,
     /// The thesis's way, (4.12)–(4.14): random increments of the *body's* own velocity relative to
-    /// the mean flow, and of its spin, before the forces of each step (fractional step of §4.3.2),
-    /// whatever its mass. The step is exact in the linear velocity, so that statistics do not depend
-    /// on dt.
+    /// the mean flow, and of its spin, whatever its mass, at the beginning of each step: weight, buoyancy and vortical
+    /// loads act together after them. The step is exact in the linear velocity, so that statistics do not depend on
+    /// dt.
     BodyIncrements,
+    /// The same increments in the thesis's order (fractional step, §4.3.2): first weight and buoyancy, which lead to
+    /// a guess of the velocity; then the increments, of which the relaxation is the guess's; then the vortical loads,
+    /// at the velocity that results. What gravity gave is relaxed in the same step: where the increments alone act
+    /// on a falling body, its mean velocity is lower than in the other order by `g dt` exactly (`(m − ρV)/(m + ρA) g dt`
+    /// in a fluid of weight), so that this is of first order in dt.
+    ///
+    /// The inertial coupling (Kirchhoff's terms) is solved together with the loads, so that neither it nor they can
+    /// add energy at any dt. What touches something, is held by joints or locks, or is cut by a boundary of fluids
+    /// moves as under [`BodyIncrements`](Self::BodyIncrements).
+    FractionalStep,
 }
 
 /// A turbulence over a mean flow, how it acts, and its seed.

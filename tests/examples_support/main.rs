@@ -9,6 +9,9 @@ mod righting;
 #[path = "../../examples/boat/seakeeping.rs"]
 #[allow(dead_code, reason = "shared with the example")]
 mod seakeeping;
+#[path = "../../examples/stochastic/case.rs"]
+#[allow(dead_code, reason = "shared with the example")]
+mod stochastic_case;
 #[path = "../../examples/support/mod.rs"]
 mod support;
 #[path = "../../examples/boat/wigley.rs"]
@@ -24,3 +27,4 @@ mod meshes;
 mod pages;
 mod pond;
 mod specimens;
+mod stochastic;

@@ -15,6 +15,7 @@ mod crossing;
 pub(super) mod driver;
 mod energy_budget;
 mod friction;
+mod gravity_step;
 mod held_motion;
 mod integrate;
 mod jointed_systems;

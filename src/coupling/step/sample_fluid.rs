@@ -1,5 +1,6 @@
 //! The second stage: the flow that each body of a batch sees, its mean and turbulence on top.
 
+use super::gravity_step::GravityStep;
 use super::stage_data::{Disturbance, StepContext, StepInput};
 use super::turbulence::{Fluctuate, StepTurbulence};
 use super::workspace::{Batch, LayerPoints};
@@ -113,11 +114,18 @@ pub(super) fn sample_fluid(
                     );
                 }
             }
-            LangevinMode::BodyIncrements => {
+            LangevinMode::BodyIncrements | LangevinMode::FractionalStep => {
+                let gravity_first =
+                    turbulent.mode == LangevinMode::FractionalStep && crossings.is_empty();
                 for (i, input) in inputs.iter_mut().enumerate() {
                     let shared = constants.get(input.constants);
                     let length = shared.map_or(0.0, |shared| shared.constants.length as Real);
-                    let relative = vector(input.rapier_linear) - samples[i].velocity;
+                    let mut relative = vector(input.rapier_linear) - samples[i].velocity;
+                    if let Some(shared) = shared.filter(|_| gravity_first && !input.touching) {
+                        let gravity = GravityStep::of(shared, input, context);
+                        relative += gravity.linear;
+                        gravity.take(disturbance_of(input, disturbances));
+                    }
                     let (linear, angular) = turbulence.increments(
                         input.handle,
                         &mut memories[i],

@@ -112,7 +112,7 @@ impl<'a> StepTurbulence<'a> {
         relative: Vector,
         length: Real,
     ) -> (Vector, Vector) {
-        debug_assert_eq!(self.layer.mode, LangevinMode::BodyIncrements);
+        debug_assert_ne!(self.layer.mode, LangevinMode::FluidSeen);
         let since = *memory.since.get_or_insert(self.time);
         let Local { state, c0, .. } = self.local(point, since);
         let noise = self.noise(body);

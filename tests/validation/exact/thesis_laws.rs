@@ -47,6 +47,7 @@ fn stochastic_law() {
         drag: 2.5,
         lift: 0.7,
         arm: 0.4,
+        damping: 0.0,
     };
     let (body, mass) = body(ViscousLaw::Stochastic(law));
     for (u, w) in STATES {
