@@ -222,16 +222,6 @@ impl Flight {
         let angles = pairs.map(|p| p[0].orientation.angle_to(&p[1].orientation));
         angles.sum::<f64>() / std::f64::consts::TAU
     }
-
-    /// Largest angle by which `axis` of the body left its direction at the release, rad.
-    pub fn largest_turn_of(&self, axis: &Vec3) -> f64 {
-        let first = self.states[0].orientation * axis;
-        let angles = self
-            .states
-            .iter()
-            .map(|s| (s.orientation * axis).angle(&first));
-        angles.fold(0.0, f64::max)
-    }
 }
 
 /// A row of the thesis's Table 4.2.

@@ -44,14 +44,19 @@ fn ellipse(semi: Vec3, center: Vec3, attitude: Quat, view: View) -> Vec<(f64, f6
     (0..=40).map(point).collect()
 }
 
-/// The path and, every `seconds`, the body's outline, blue to yellow in time.
-pub fn strobe(
-    title: &'static str,
-    case: &Case,
-    flight: &Flight,
-    seconds: f64,
-    view: View,
-) -> Panel<'static> {
+/// How a figure's panels are drawn.
+#[derive(Clone, Copy)]
+pub struct Style {
+    /// Time between two outlines, s.
+    pub every: f64,
+    pub view: View,
+    /// What is shown of both directions, m.
+    pub window: [(f64, f64); 2],
+}
+
+/// The path and the body's outlines, blue to yellow in time.
+pub fn strobe(title: &'static str, case: &Case, flight: &Flight, style: Style) -> Panel<'static> {
+    let view = style.view;
     let across = if view(&Vec3::x()).0 == 0.0 {
         "z, m"
     } else {
@@ -68,7 +73,7 @@ pub fn strobe(
         color: GREY,
         width: 1,
     }];
-    let stride = ((seconds / flight.dt).round() as usize).max(1);
+    let stride = ((style.every / flight.dt).round() as usize).max(1);
     let last = (flight.states.len() - 1) as f64;
     for (i, state) in flight.states.iter().enumerate().step_by(stride) {
         let (place, turn) = (state.position, state.orientation);
@@ -91,34 +96,20 @@ pub fn strobe(
         axes: [across, up],
         lines,
         dots: Vec::new(),
-        window: None,
+        window: Some(style.window),
     }
 }
 
-/// Where `count` runs end, from above: one dot each, that without turbulence black.
-pub fn endings(title: &'static str, case: &Case, count: u64) -> Panel<'static> {
-    let mut dots = Vec::new();
-    for (physics, color) in [
-        (Physics::Increments, RGBColor(200, 90, 40)),
-        (Physics::FluidSeen, RGBColor(50, 90, 150)),
-    ] {
-        let end = |seed| FROM_ABOVE(&case.fly(physics, seed).way());
-        dots.extend((0..count).map(|seed| (end(seed), color)));
-    }
-    dots.push((
-        FROM_ABOVE(&case.fly(Physics::Viscous, 0).way()),
-        RGBColor(0, 0, 0),
-    ));
-    let range = |of: fn(&(f64, f64)) -> f64| {
-        let values = || dots.iter().map(|(at, _)| of(at));
-        let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
-        (low, high)
-    };
+/// Where so many runs end, from above; the release is at the middle.
+pub fn endings(case: &Case, physics: Physics, count: u64) -> Panel<'static> {
+    let end = |seed| FROM_ABOVE(&case.fly(physics, seed).way());
     Panel {
-        title,
+        title: physics.name(),
         axes: ["x, m", "−z, m"],
         lines: Vec::new(),
-        window: Some([range(|at| at.0), range(|at| at.1)]),
-        dots,
+        dots: (0..count)
+            .map(|seed| (end(seed), RGBColor(50, 90, 150)))
+            .collect(),
+        window: Some([(-0.4, 0.4); 2]),
     }
 }

@@ -6,14 +6,13 @@
 //! ```
 //!
 //! * `paper.svg`: an elliptic piece of paper from two release angles, as Fig. 4.3: without turbulence, with the thesis's
-//!   increments of the body's velocity, and in turbulence of the fluid; the same fall for every seed in the first
-//!   column, another one for every seed in the others,
-//! * `endings.svg`: where 200 such falls are after 1.5 s, from above: black without turbulence (one point), brown with
-//!   the thesis's increments, blue in turbulence of the fluid,
-//! * `airplane.svg`: the paper airplane of Fig. 4.4, thrown level with 0.2 m/s, from the side and from above: it pitches
-//!   over to the front, and turns sideways,
-//! * `ellipsoid.svg`: a rubber ellipsoid in water every 50 ms, with its vortical loads and turbulence,
-//!   without turbulence, and with Kirchhoff's equations alone, as Fig. 4.5, from the side and along its long axis's heading,
+//!   increments of the body's velocity, and in turbulence of the fluid. The increments halve the fall, and in a quarter
+//!   of a second the release is forgotten,
+//! * `endings.svg`: where 200 such falls are after 1.5 s, from above: without turbulence all at one point,
+//! * `airplane_side.svg`, `airplane_above.svg`: the paper airplane of Fig. 4.4, thrown level with 0.2 m/s. Without turbulence
+//!   it keeps its heading; with it, it pitches to the front and turns sideways, and often rolls over,
+//! * `ellipsoid.svg`: a rubber ellipsoid in water, as Fig. 4.5: with Kirchhoff's equations alone, with its vortical loads,
+//!   and with turbulence, without which it stays in the plane in which it was tilted,
 //! * `stochastic.json`: what each run did, and the cost per step of the thesis's Table 4.2, all six rows, re-measured.
 //!
 //! Fig. 4.2, the history of the turbulence, is drawn by the example `wind`.
@@ -26,7 +25,7 @@ mod support;
 
 use case::{Case, Flight, Physics};
 use clap::Parser;
-use figures::{ALONG, FROM_ABOVE, FROM_THE_SIDE, endings, strobe};
+use figures::{ALONG, FROM_ABOVE, FROM_THE_SIDE, Style, endings, strobe};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use support::cli;
@@ -93,48 +92,66 @@ fn main() {
         report: serde_json::Map::new(),
     };
 
-    let mut pictures = Vec::new();
-    let papers = [75.0, 30.0].map(|angle| runs.case(Case::paper(angle)));
-    for (case, name) in papers.iter().zip(["paper, 75°", "paper, 30°"]) {
+    let mut pictures = [Vec::new(), Vec::new()];
+    let style = Style {
+        every: 0.04,
+        view: FROM_THE_SIDE,
+        window: [(-0.25, 0.25), (-1.5, 0.05)],
+    };
+    for (angle, name) in [(75.0, "paper, 75°"), (30.0, "paper, 30°")] {
+        let case = runs.case(Case::paper(angle));
         for physics in THREE {
-            let flight = runs.fly(name, case, physics);
-            pictures.push(strobe(physics.name(), case, &flight, 0.04, FROM_THE_SIDE));
+            let flight = runs.fly(name, &case, physics);
+            pictures[0].push(strobe(physics.name(), &case, &flight, style));
+            pictures[1].push(endings(&case, physics, 200));
         }
     }
     let title = "Paper of 8 × 2 × 0.01 cm in air, every 40 ms; released at 75° (top) and 30°";
-    runs.draw("paper.svg", title, &pictures, (3, (420, 420)));
-
-    let names = ["released at 75°", "released at 30°"];
-    let pictures: Vec<_> = papers
-        .iter()
-        .zip(names)
-        .map(|(case, name)| endings(name, case, 200))
-        .collect();
-    let title = "Ends of 200 falls of 1.5 s from above. Black: no turbulence; brown: thesis's Langevin; blue: default's";
-    runs.draw("endings.svg", title, &pictures, (2, (480, 480)));
+    runs.draw("paper.svg", title, &pictures[0], (3, (330, 700)));
+    let title = "Where 200 of them are after 1.5 s, from above; released at 75° (top) and 30°";
+    runs.draw("endings.svg", title, &pictures[1], (3, (380, 400)));
 
     let airplane = runs.case(Case::airplane(0.0));
     let flights = THREE.map(|physics| (physics, runs.fly("airplane", &airplane, physics)));
-    let mut pictures = Vec::new();
-    for view in [FROM_THE_SIDE, FROM_ABOVE] {
-        for (physics, flight) in &flights {
-            pictures.push(strobe(physics.name(), &airplane, flight, 0.1, view));
-        }
+    let from_the_side = Style {
+        every: 0.1,
+        view: FROM_THE_SIDE,
+        window: [(-0.25, 0.35), (-1.7, 0.1)],
+    };
+    let from_above = Style {
+        every: 0.3,
+        view: FROM_ABOVE,
+        window: [(-0.1, 0.25), (-0.25, 0.1)],
+    };
+    for (file, style, size) in [
+        ("airplane_side.svg", from_the_side, (330, 760)),
+        ("airplane_above.svg", from_above, (400, 430)),
+    ] {
+        let panel = |(physics, flight): &(Physics, Flight)| {
+            strobe(physics.name(), &airplane, flight, style)
+        };
+        let pictures: Vec<_> = flights.iter().map(panel).collect();
+        let every = style.every;
+        let title = format!("Paper airplane, thrown level with 0.2 m/s, every {every} s");
+        runs.draw(file, &title, &pictures, (3, size));
     }
-    let title = "Paper airplane, thrown level with 0.2 m/s, every 0.1 s; from the side (top) and from above";
-    runs.draw("airplane.svg", title, &pictures, (3, (420, 420)));
 
     let ellipsoid = runs.case(Case::ellipsoid(0.0));
     let four = [Physics::Kirchhoff, THREE[0], THREE[1], THREE[2]];
     let flights = four.map(|physics| (physics, runs.fly("ellipsoid", &ellipsoid, physics)));
     let mut pictures = Vec::new();
     for view in [FROM_THE_SIDE, ALONG] {
+        let style = Style {
+            every: 0.05,
+            view,
+            window: [(-0.09, 0.11), (-0.47, 0.05)],
+        };
         for (physics, flight) in &flights {
-            pictures.push(strobe(physics.name(), &ellipsoid, flight, 0.05, view));
+            pictures.push(strobe(physics.name(), &ellipsoid, flight, style));
         }
     }
     let title = "Rubber ellipsoid (semi-axes 1, 2, 4 cm) sinking in water, every 50 ms; from the side (top) and from the front";
-    runs.draw("ellipsoid.svg", title, &pictures, (4, (340, 560)));
+    runs.draw("ellipsoid.svg", title, &pictures, (4, (310, 640)));
 
     let costs = cost::table();
     let text = json!({ "runs": runs.report, "cost": costs });
@@ -156,6 +173,6 @@ fn main() {
     cost::print(&costs);
     let out = options.out.display();
     println!(
-        "wrote paper.svg, endings.svg, airplane.svg, ellipsoid.svg and stochastic.json to {out}"
+        "wrote paper, endings, airplane_side, airplane_above, ellipsoid (.svg) and stochastic.json to {out}"
     );
 }

@@ -67,7 +67,9 @@ pub enum LangevinMode {
     /// The thesis's way, (4.12)–(4.14): random increments of the *body's* own velocity relative to
     /// the mean flow, and of its spin, whatever its mass, at the beginning of each step: weight, buoyancy and vortical
     /// loads act together after them. The step is exact in the linear velocity, so that statistics do not depend on
-    /// dt.
+    /// dt. The increments relax a falling body's own velocity, too: it falls more slowly than in still fluid, the
+    /// thesis's paper by a half. Those of the spin need a law that resists rotation, as all but
+    /// [`ViscousLaw::Inviscid`](crate::ViscousLaw::Inviscid) and those as printed do.
     BodyIncrements,
     /// The same increments in the thesis's order (fractional step, §4.3.2): first weight and buoyancy, which lead to
     /// a guess of the velocity; then the increments, of which the relaxation is the guess's; then the vortical loads,

@@ -211,7 +211,9 @@ fn the_ellipsoid_leaves_its_plane_by_turbulence_alone() {
             .iter()
             .map(|s| s.position.z.abs())
             .fold(0.0, f64::max);
-        [place, flight.largest_turn_of(&Vec3::z()).to_degrees()]
+        let normals = flight.states.iter().map(|s| s.orientation * Vec3::z());
+        let tilt = normals.map(|n| n.angle(&Vec3::z())).fold(0.0, f64::max);
+        [place, tilt.to_degrees()]
     };
     let [place, turn] = out_of_plane(&case.fly(Physics::Kirchhoff, 0));
     println!("Kirchhoff: {place:.5} m, {turn:.3}°");
