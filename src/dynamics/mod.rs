@@ -7,6 +7,7 @@ mod designs;
 pub(crate) mod flow_response;
 pub(crate) mod forces;
 mod free_body;
+pub(crate) mod gravity_step;
 pub(crate) mod integrate;
 mod integrator;
 mod kirchhoff;

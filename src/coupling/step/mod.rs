@@ -15,7 +15,6 @@ mod crossing;
 pub(super) mod driver;
 mod energy_budget;
 mod friction;
-mod gravity_step;
 mod held_motion;
 mod integrate;
 mod jointed_systems;

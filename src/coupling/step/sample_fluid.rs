@@ -1,18 +1,18 @@
 //! The second stage: the flow that each body of a batch sees, its mean and turbulence on top.
 
-use super::gravity_step::GravityStep;
 use super::stage_data::{Disturbance, StepContext, StepInput};
 use super::turbulence::{Fluctuate, StepTurbulence};
 use super::workspace::{Batch, LayerPoints};
 use crate::coupling::body_state::NONE;
 use crate::coupling::environment::Environment;
 use crate::coupling::shared_constants::ConstantsTable;
+use crate::dynamics::gravity_step::GravityStep;
 use crate::flow::FlowSample;
-use crate::math::{Row, dispatch, row, vector};
+use crate::math::{Row, dispatch, row, to_f64, to_quaternion, to_real, vector};
 use crate::medium::Medium;
 use crate::turbulence::LangevinMode;
 use rapier3d::dynamics::RigidBodyHandle;
-use rapier3d::math::{Real, Vector};
+use rapier3d::math::{Real, Rotation, Vector};
 
 /// Reynolds number up to which a body is turned by the strain of the fluid, less and less: that is a matter of creeping
 /// flow.
@@ -122,9 +122,16 @@ pub(super) fn sample_fluid(
                     let length = shared.map_or(0.0, |shared| shared.constants.length as Real);
                     let mut relative = vector(input.rapier_linear) - samples[i].velocity;
                     if let Some(shared) = shared.filter(|_| gravity_first && !input.touching) {
-                        let gravity = GravityStep::of(shared, input, context);
-                        relative += gravity.linear;
-                        gravity.take(disturbance_of(input, disturbances));
+                        let attitude = Rotation::from_array(input.rapier_attitude);
+                        let gravity = GravityStep::of(
+                            &shared.constants,
+                            &shared.mass.inverse,
+                            to_quaternion(attitude),
+                            to_f64(context.gravity) * f64::from(input.gravity_scale),
+                            context.dt.into(),
+                        );
+                        relative += to_real(gravity.change.linear);
+                        disturbance_of(input, disturbances).take(&gravity);
                     }
                     let (linear, angular) = turbulence.increments(
                         input.handle,

@@ -5,9 +5,10 @@ use crate::coupling::body_state::{FlightState, IntegratorState};
 use crate::coupling::crossing_memory::CrossingMemory;
 use crate::dynamics::ForceAndTorque;
 use crate::dynamics::Integrator;
+use crate::dynamics::gravity_step::GravityStep;
 use crate::flow::FlowSample;
 use crate::hydro::viscous::ForceFactors;
-use crate::math::{Row, row, vector};
+use crate::math::{Row, row, to_real, vector};
 use rapier3d::dynamics::{LockedAxes, RigidBodyHandle};
 use rapier3d::math::{Real, Rotation, Vector};
 
@@ -120,6 +121,17 @@ impl Disturbance {
             turn: Vector::ZERO,
         },
     };
+}
+
+impl Disturbance {
+    /// Gives a body what gravity does to it in a step at once, and takes the loads that cause it out of the step.
+    pub fn take(&mut self, step: &GravityStep) {
+        let add = |to: &mut Row, change| *to = row(vector(*to) + to_real(change));
+        add(&mut self.linear, step.change.linear);
+        add(&mut self.angular, step.change.angular);
+        add(&mut self.force, -step.load.force);
+        add(&mut self.torque, -step.load.torque);
+    }
 }
 
 /// The flow that a body sees. World axes.
