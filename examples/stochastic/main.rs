@@ -109,7 +109,7 @@ fn main() {
     let title = "Paper of 8 × 2 × 0.01 cm in air, every 40 ms; released at 75° (top) and 30°";
     runs.draw("paper.svg", title, &pictures[0], (3, (330, 700)));
     let title = "Where 200 of them are after 1.5 s, from above; released at 75° (top) and 30°";
-    runs.draw("endings.svg", title, &pictures[1], (3, (380, 400)));
+    runs.draw("endings.svg", title, &pictures[1], (3, (470, 480)));
 
     let airplane = runs.case(Case::airplane(0.0));
     let flights = THREE.map(|physics| (physics, runs.fly("airplane", &airplane, physics)));
@@ -124,7 +124,7 @@ fn main() {
         window: [(-0.1, 0.25), (-0.25, 0.1)],
     };
     for (file, style, size) in [
-        ("airplane_side.svg", from_the_side, (330, 760)),
+        ("airplane_side.svg", from_the_side, (400, 760)),
         ("airplane_above.svg", from_above, (400, 430)),
     ] {
         let panel = |(physics, flight): &(Physics, Flight)| {
