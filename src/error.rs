@@ -110,8 +110,11 @@ pub enum Error {
         to: [f64; 3],
     },
 
-    /// A mesh is closed but flat, or its parts cancel.
-    #[error("the mesh, {size} m across, encloses no volume")]
+    /// A mesh is closed but flat, or its parts cancel. A convex hull of points that are less than about a thousandth of
+    /// its width apart (paper) is flattened when parry makes it; one made of its faces is not.
+    #[error(
+        "the mesh, {size} m across, encloses no volume (of a thin plate make `convex_mesh` from its faces: `convex_hull` flattens it)"
+    )]
     NoVolume {
         /// Diagonal of its bounding box, m.
         size: f64,

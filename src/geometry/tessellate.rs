@@ -331,6 +331,35 @@ mod tests {
         surface.volume_integrals().volume
     }
 
+    /// Parry's hull of a hexagon of 69 µm paper is flat and weighs nothing. That is an error that says what to do, and
+    /// what it says works: (3/2)√3 r² t.
+    #[test]
+    fn paper_is_made_of_its_faces() {
+        let (radius, thickness) = (0.042f32, 69e-6f32);
+        let corner = |k: usize, y: f32| {
+            let angle = std::f32::consts::FRAC_PI_3 * k as f32;
+            Vector::new(radius * angle.cos(), y, radius * angle.sin())
+        };
+        let points: Vec<Vector> = (0..6)
+            .flat_map(|k| [corner(k, -0.5 * thickness), corner(k, 0.5 * thickness)])
+            .collect();
+        let hull = SharedShape::convex_hull(&points).unwrap();
+        let error = Surface::from_shape(hull.as_ref()).unwrap_err();
+        assert!(error.to_string().contains("convex_mesh"), "{error}");
+
+        let mut faces = Vec::new();
+        for k in 0..6u32 {
+            let (here, next) = (2 * k, 2 * ((k + 1) % 6));
+            faces.extend([[here, here + 1, next], [next, here + 1, next + 1]]);
+        }
+        for k in 1..5u32 {
+            faces.extend([[0, 2 * k, 2 * k + 2], [1, 2 * k + 3, 2 * k + 1]]);
+        }
+        let paper = SharedShape::convex_mesh(points, &faces).unwrap();
+        let exact = 1.5 * 3f64.sqrt() * f64::from(radius).powi(2) * f64::from(thickness);
+        assert_relative_eq!(volume(&paper), exact, max_relative = 3e-6);
+    }
+
     /// The displaced volume, which decides whether a body floats, is exact for every primitive.
     #[test]
     fn primitive_volumes_are_exact() {
