@@ -8,6 +8,7 @@ use rapier3d_immersed::boundary_element::BoundaryElementParams;
 use rapier3d_immersed::geometry::{Ellipsoid, Surface};
 use rapier3d_immersed::rapier3d::na::{Matrix6, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::SharedShape;
+use serde_json::json;
 use std::path::Path;
 
 /// Thicknesses, cm.
@@ -66,7 +67,7 @@ fn cylinders() -> Result<Vec<Row>, String> {
         let (exact, report) =
             AddedMass::of_shape(shape.as_ref(), Default::default(), 0.001).map_err(failed)?;
         if !report.converged {
-            println!(
+            eprintln!(
                 "reference at {thickness} cm: error {:?}",
                 report.estimated_error
             );
@@ -81,11 +82,25 @@ fn cylinders() -> Result<Vec<Row>, String> {
     THICKNESS.iter().map(row).collect()
 }
 
-pub fn draw(path: &Path) -> Result<(), String> {
+/// Draws the figure, and prints its numbers.
+pub fn draw(path: &Path, as_json: bool) -> Result<(), String> {
     let series = [
         ("ellipsoid 7.3 × 4.2 cm", ellipsoids()?),
         ("cylinder ⌀ 4.2 cm", cylinders()?),
     ];
+    plot(path, &series).map_err(|e| format!("--out {}: {e}", path.display()))?;
+    if as_json {
+        let of = |rows: &[Row]| -> Vec<_> {
+            let row = |r: &Row| json!({ "thickness_cm": r.thickness, "previous": r.previous, "ours": r.ours });
+            rows.iter().map(row).collect()
+        };
+        let [(_, ellipsoids), (_, cylinders)] = &series;
+        println!(
+            "{:#}",
+            json!({ "ellipsoid": of(ellipsoids), "cylinder": of(cylinders) })
+        );
+        return Ok(());
+    }
     for (name, rows) in &series {
         println!("{name}\n  thickness, cm   previous method      ours");
         for row in rows {
@@ -97,7 +112,6 @@ pub fn draw(path: &Path) -> Result<(), String> {
             );
         }
     }
-    plot(path, &series).map_err(|e| format!("--out {}: {e}", path.display()))?;
     println!("figure: {}", path.display());
     Ok(())
 }

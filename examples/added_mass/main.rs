@@ -55,7 +55,7 @@ struct Options {
     /// Most panels to use.
     #[arg(long, default_value_t = 6000)]
     max_panels: usize,
-    /// Print JSON and draw nothing.
+    /// Print JSON, and draw nothing but the figure.
     #[arg(long)]
     json: bool,
     /// Draw the error against thickness, ours beside plain quadrature (thesis, figure 5.2).
@@ -80,7 +80,8 @@ fn run(options: &Options) -> Result<(), String> {
     let failed = |e: std::io::Error| format!("--out {}: {e}", options.out.display());
     if options.figure {
         std::fs::create_dir_all(&options.out).map_err(failed)?;
-        return error_figure::draw(&options.out.join("added_mass_error.svg"));
+        let picture = options.out.join("added_mass_error.svg");
+        return error_figure::draw(&picture, options.json);
     }
     if options.tolerance.is_nan() || options.tolerance <= 0.0 {
         return Err(format!(

@@ -28,7 +28,8 @@ use fits::{FAMILIES, FallFit};
 use forecast::{DEFAULT, FITTED, Family, KNOWN, PHYSICAL, THESIS, moved, straight_on};
 use measured::{Fall, divergence};
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
+use serde_json::json;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -43,11 +44,14 @@ struct Arguments {
     /// Directory for the pictures and fits.csv
     #[arg(long, default_value = "out")]
     out: PathBuf,
+    /// Print numbers as JSON instead of text
+    #[arg(long)]
+    json: bool,
 }
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    match run(arguments.fit, &arguments.out) {
+    match run(&arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("error: {problem}");
@@ -56,9 +60,14 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(anew: bool, out: &Path) -> Result<(), Failure> {
+fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let say = |line: String| {
+        if !arguments.json {
+            println!("{line}");
+        }
+    };
     let falls = Fall::all()?;
-    let fits = if anew {
+    let fits = if arguments.fit {
         fit(&falls)?
     } else {
         FallFit::shipped()?
@@ -70,35 +79,42 @@ fn run(anew: bool, out: &Path) -> Result<(), Failure> {
         let found = fits.iter().find(same);
         found.ok_or_else(|| format!("fits.csv: no {} of {}", family.name, fall.name))
     };
-    println!(
+    say(format!(
         "Seconds from the first frame until a diameter off; the state is estimated from the first {KNOWN} frames."
-    );
-    println!(
+    ));
+    say(format!(
         "{:22}{:>9}{:>9}{:>12}{:>10}{:>11}",
         "fall", "rms, mm", "ours", "straight on", "repeat", "views, r"
-    );
-    let mut forecasts = Vec::new();
+    ));
+    let (mut forecasts, mut rows) = (Vec::new(), Vec::new());
     for (i, fall) in falls.iter().enumerate() {
         let forecast = find(fall, &DEFAULT, fall)?.forecast(fall, &DEFAULT)?;
-        let until = |path: &[_]| seconds(divergence(path, &fall.positions, fall.diameter()));
-        println!(
-            "{:22}{:9.1}{:>9}{:>12}{:>10}{:11.2}",
-            fall.name,
-            1e3 * forecast.residual(),
-            seconds(forecast.divergence),
+        let until = |path: &[_]| divergence(path, &fall.positions, fall.diameter());
+        let residual = 1e3 * forecast.residual();
+        let [ours, straight, repeat] = [
+            forecast.divergence,
             until(&straight_on(fall)),
             until(&moved(fall, &falls[i ^ 1])),
-            forecast.view_correlation(fall, KNOWN, 2 * KNOWN),
+        ];
+        let views = forecast.view_correlation(fall, KNOWN, 2 * KNOWN);
+        say(format!(
+            "{:22}{residual:9.1}{:>9}{:>12}{:>10}{views:11.2}",
+            fall.name,
+            seconds(ours),
+            seconds(straight),
+            seconds(repeat),
+        ));
+        rows.push(
+            json!({ "fall": fall.name, "residual_mm": residual, "ours_s": ours,
+            "straight_on_s": straight, "repeat_s": repeat, "views_correlation": views }),
         );
         forecasts.push(forecast);
     }
-    println!(
-        "\nCoefficients fitted to the first {} frames, and seconds until the repeat is a diameter off",
-        FITTED
-    );
-    println!(
-        "(its state estimated from its first {KNOWN} frames; \"!\": at the end of its range)."
-    );
+    say(format!(
+        "\nCoefficients fitted to the first {FITTED} frames, and seconds until the repeat is a diameter off\n\
+         (its state estimated from its first {KNOWN} frames; \"!\": at the end of its range)."
+    ));
+    let mut identified = Vec::new();
     for (i, fall) in falls.iter().enumerate() {
         for family in [&PHYSICAL, &THESIS] {
             let repeat = &falls[i ^ 1];
@@ -113,16 +129,22 @@ fn run(anew: bool, out: &Path) -> Result<(), Failure> {
                 )
             });
             let named: Vec<String> = named.collect();
-            println!(
+            say(format!(
                 "{:22}{:10}{}; residual {:.2}; repeat {}",
                 fall.name,
                 family.name,
                 named.join(", "),
                 fit.residual,
                 seconds(held.divergence),
+            ));
+            identified.push(
+                json!({ "fall": fall.name, "law": family.name, "names": family.coefficients,
+                "coefficients": coefficients, "deviations": fit.deviations,
+                "residual": fit.residual, "repeat_s": held.divergence }),
             );
         }
     }
+    let out = &arguments.out;
     std::fs::create_dir_all(out)?;
     let write = |name: &str, text: String| {
         let file = out.join(name);
@@ -134,7 +156,13 @@ fn run(anew: bool, out: &Path) -> Result<(), Failure> {
         picture::errors(&falls, &forecasts, &fits)?,
     )?;
     write("fits.csv", FallFit::csv(&fits))?;
-    println!("Pictures and fits are in {}.", out.display());
+    say(format!("Pictures and fits are in {}.", out.display()));
+    if arguments.json {
+        println!(
+            "{:#}",
+            json!({ "forecasts": rows, "identified": identified })
+        );
+    }
     Ok(())
 }
 
