@@ -23,6 +23,7 @@
 //!
 //! | you want to | start at |
 //! |---|---|
+//! | see ten lines for a leaf, a coin, a frisbee, a boat, … | [`guide`] |
 //! | let bodies of a rapier world fly | [`Immersion`], [`HydroProperties`], [`Fluid`] |
 //! | do so where something else steps rapier | [`Immersion::before_step`], [`RapierSets`] |
 //! | choose how the fluid pushes back | [`ImmersedBody`], [`ViscousLaw`] |
@@ -30,7 +31,7 @@
 //! | know what a shape's added mass is | [`HydroProperties::added_mass`], [`Accuracy`], [`boundary_element`] |
 //! | let the fluid move | [`flow`], [`turbulence`] |
 //! | let bodies float, give water a surface with waves | [`Medium`], [`free_surface`], [`Immersion::hydrostatics`] |
-//! | see every force on a body | [`Immersion::forces`] |
+//! | see every force on a body | [`Immersion::forces`]; `DebugRender` (feature `debug-render`) draws them |
 //! | steer how a body falls | [`Immersion::set_control`], [`Immersion::replay`], [`training`] |
 //! | fly one body without rapier, in f64 | [`FreeBody`] |
 //! | name and classify motions | [`motion`] |
@@ -45,7 +46,7 @@
 //! other way round:
 //!
 //! ```text
-//! training   playback      sweeps, plans, fits; bodies on synthesized paths
+//! training   playback   debug_render   sweeps, plans, fits; bodies on synthesized paths; forces as lines
 //!     coupling             Immersion: the bridge to rapier
 //!    interning             equal values, stored once
 //!      motion              patterns, phase diagram, codebooks, paths
@@ -75,6 +76,8 @@
 
 mod body;
 mod coupling;
+#[cfg(feature = "debug-render")]
+mod debug_render;
 mod dynamics;
 mod error;
 mod file;
@@ -82,6 +85,8 @@ pub mod flow;
 mod fluid;
 pub mod free_surface;
 pub mod geometry;
+#[cfg(any(doc, doctest))]
+pub mod guide;
 mod hydro;
 mod interning;
 mod math;
@@ -95,6 +100,8 @@ pub mod turbulence;
 
 pub use body::{Division, DryMass, Hinge, ImmersedBody, Part, Propeller, Thruster};
 pub use coupling::{BodyChanges, Immersion, OnContact, RapierSets, Warning};
+#[cfg(feature = "debug-render")]
+pub use debug_render::DebugRender;
 pub use dynamics::{ForceAndTorque, ForceBreakdown, FreeBody, Hydrostatics, Integrator};
 pub use error::Error;
 pub use fluid::Fluid;

@@ -20,7 +20,7 @@ const LAYERS: &[&[&str]] = &[
     &["motion"],
     &["interning"],
     &["coupling"],
-    &["playback", "training"],
+    &["playback", "training", "debug_render", "guide"],
 ];
 
 /// Lines of code, unit tests aside, that the bridge to rapier may have: some 3,000 for bodies that fly, 1,500
