@@ -8,7 +8,7 @@ use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
 /// Size of one recording's picture, pixels.
 const SIZE: [usize; 2] = [236, 340];
-/// Pictures per second of the run, and the longest part of it that is shown, s.
+/// Pictures per second of an [`animation`], and the longest part of it that is shown, s.
 const RATE: f64 = 15.0;
 const LONGEST: f64 = 5.0;
 /// The last picture stays, 1/100 s.
@@ -26,17 +26,30 @@ const SAME: u8 = 255;
 /// Those of the encoder, for sizes beyond its format.
 pub fn animation(scene: &Scene, runs: &[&Recording]) -> Result<Vec<u8>, EncodingError> {
     let camera = Camera::overview(&bounds(runs));
-    let until = runs.iter().filter_map(|run| run.times.last().copied());
+    let runs: Vec<_> = runs.iter().map(|run| (scene, *run)).collect();
+    side_by_side(&runs, &camera, RATE)
+}
+
+/// The first seconds of runs of a scene each, seen from one place, in so many pictures per second.
+///
+/// # Errors
+/// Those of the encoder, for sizes beyond its format.
+pub fn side_by_side(
+    runs: &[(&Scene, &Recording)],
+    camera: &Camera,
+    rate: f64,
+) -> Result<Vec<u8>, EncodingError> {
+    let until = runs.iter().filter_map(|(_, run)| run.times.last().copied());
     let until = until.fold(LONGEST, f64::min);
-    let count = (until * RATE) as usize + 1;
+    let count = (until * rate) as usize + 1;
     let pictures: Vec<Vec<Rgb>> = (0..count)
         .map(|index| {
-            let time = index as f64 / RATE;
-            let halves = runs.iter().map(|run| {
+            let time = index as f64 / rate;
+            let parts = runs.iter().map(|(scene, run)| {
                 let frame = run.times.partition_point(|t| *t < time - 1e-6);
-                picture(scene, run, frame.min(run.times.len() - 1), &camera, SIZE)
+                picture(scene, run, frame.min(run.times.len() - 1), camera, SIZE)
             });
-            beside(&halves.collect::<Vec<_>>())
+            beside(&parts.collect::<Vec<_>>())
         })
         .collect();
     let palette = Palette::of(&pictures);
@@ -50,7 +63,7 @@ pub fn animation(scene: &Scene, runs: &[&Recording]) -> Result<Vec<u8>, Encoding
         let changed = now.iter().zip(&before);
         let changed = changed.map(|(now, before)| if now == before { SAME } else { *now });
         // Hundredths of a second, which add up to the run's time.
-        let at = |index: usize| (100.0 * index as f64 / RATE).round() as u16;
+        let at = |index: usize| (100.0 * index as f64 / rate).round() as u16;
         encoder.write_frame(&Frame {
             width: width as u16,
             height: height as u16,

@@ -5,87 +5,23 @@
 // Exit code 0: everything is as it should be, or there is no Chromium (and a line says so).
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { pause, withTab } from "./chromium.mjs";
 
 const [page, folder] = process.argv.slice(2);
-const profile = mkdtempSync(join(tmpdir(), "viewer-"));
-const flags = ["--headless=new", "--no-sandbox", "--no-first-run", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-  "--remote-debugging-port=0", `--user-data-dir=${profile}`, "about:blank"];
 
-/** The first Chromium that starts, and the address at which it takes commands. */
-async function start() {
-  for (const name of [process.env.CHROMIUM, "chromium", "chromium-browser", "google-chrome"].filter(Boolean)) {
-    const browser = spawn(name, flags, { stdio: ["ignore", "ignore", "pipe"] });
-    const address = await new Promise(found => {
-      let told = "";
-      browser.on("error", () => found(null));
-      browser.on("exit", () => found(null));
-      browser.stderr.on("data", data => {
-        told += data;
-        const match = told.match(/DevTools listening on (ws:\S+)/);
-        if (match) found(match[1]);
-      });
-    });
-    if (address) return { browser, address };
+await withTab(folder, async ({ send, evaluate, screenshot, size, complaints }) => {
+  const mouse = (type, [x, y], more = {}) => send("Input.dispatchMouseEvent", { type, x, y, ...more });
+  async function click(at) {
+    for (const type of ["mousePressed", "mouseReleased"]) await mouse(type, at, { button: "left", clickCount: 1 });
   }
-  return null;
-}
+  async function key(name, text) {
+    for (const type of ["keyDown", "keyUp"]) await send("Input.dispatchKeyEvent", { type, key: name, text: type === "keyDown" ? text : undefined });
+  }
+  const seek = time => evaluate(`viewer.state.playing = false; viewer.state.time = ${time}; viewer.state.changed = true`);
+  const eye = () => evaluate("viewer.cameraOf(viewer.rects()[0]).eye");
 
-const started = await start();
-if (!started) {
-  console.log("the page is not tested: no Chromium starts here (name one in CHROMIUM)");
-  process.exit(0);
-}
-
-const socket = new WebSocket(started.address);
-await new Promise(open => socket.addEventListener("open", open));
-let count = 0, session;
-const waiting = new Map(), complaints = [], requests = [];
-socket.addEventListener("message", ({ data }) => {
-  const { id, method, params, result, error } = JSON.parse(data);
-  if (id) waiting.get(id)(error ? Promise.reject(new Error(error.message)) : result);
-  if (method === "Runtime.exceptionThrown") complaints.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
-  if (method === "Runtime.consoleAPICalled") complaints.push(params.args.map(arg => arg.value).join(" "));
-  if (method === "Log.entryAdded") complaints.push(`${params.entry.text} ${params.entry.url ?? ""}`);
-  if (method === "Network.requestWillBeSent") requests.push(params.request.url.slice(0, 100));
-});
-const send = (method, params = {}) => new Promise(answer => {
-  waiting.set(++count, answer);
-  socket.send(JSON.stringify({ id: count, method, params, sessionId: session }));
-});
-const pause = ms => new Promise(end => setTimeout(end, ms));
-async function evaluate(expression) {
-  const { result, exceptionDetails } = await send("Runtime.evaluate", { expression, returnByValue: true });
-  assert(!exceptionDetails, `${expression}: ${exceptionDetails?.exception?.description}`);
-  return result.value;
-}
-async function screenshot(name) {
-  await pause(400);
-  if (!folder) return;
-  mkdirSync(folder, { recursive: true });
-  const { data } = await send("Page.captureScreenshot", { format: "png" });
-  writeFileSync(join(folder, `${name}.png`), Buffer.from(data, "base64"));
-}
-const mouse = (type, [x, y], more = {}) => send("Input.dispatchMouseEvent", { type, x, y, ...more });
-async function click(at) {
-  for (const type of ["mousePressed", "mouseReleased"]) await mouse(type, at, { button: "left", clickCount: 1 });
-}
-async function key(name, text) {
-  for (const type of ["keyDown", "keyUp"]) await send("Input.dispatchKeyEvent", { type, key: name, text: type === "keyDown" ? text : undefined });
-}
-const size = (width, height) => send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
-const seek = time => evaluate(`viewer.state.playing = false; viewer.state.time = ${time}; viewer.state.changed = true`);
-const eye = () => evaluate("viewer.cameraOf(viewer.rects()[0]).eye");
-
-let failure = null;
-try {
-  const { targetId } = await send("Target.createTarget", { url: "about:blank" });
-  ({ sessionId: session } = await send("Target.attachToTarget", { targetId, flatten: true }));
-  for (const domain of ["Page", "Runtime", "Log", "Network"]) await send(`${domain}.enable`);
   await size(1280, 720);
   const first = [];
   // The least of three: whatever else the machine does at the time is not the page's.
@@ -175,15 +111,4 @@ try {
   const target = await evaluate("viewer.header.target");
   const distance = p => Math.hypot(...p.map((x, k) => x - target[k]));
   assert(distance(near) < 0.8 * distance(far), "two fingers apart come closer");
-
-  assert.deepEqual(complaints, []);
-  assert.deepEqual(requests.filter(url => !url.startsWith("file:")), [], "nothing is loaded");
-  console.log("no complaints, no requests but for the page itself");
-} catch (error) {
-  failure = error;
-}
-started.browser.kill();
-await new Promise(end => started.browser.on("exit", end));
-rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
-if (failure) throw failure;
-process.exit(0);
+});

@@ -26,5 +26,6 @@ mod leaves;
 mod meshes;
 mod pages;
 mod pond;
+mod scoring;
 mod specimens;
 mod stochastic;
