@@ -23,10 +23,10 @@ const DT: f64 = 1.0 / 240.0;
 
 /// One leaf by each method, let go in the same way; the graph-based one begins its fall as it was synthesized.
 pub fn strip(prepared: &Prepared) -> Result<String, Failure> {
-    // A plan that begins with flutter.
+    // Of the plans, one that begins with what is easily told apart: tumbling.
     let planned = prepared.codebook.series().iter();
     let mut planned = planned.map(|series| series.sequence()[0]);
-    let planned = planned.position(|pattern| pattern == Pattern::Zigzag);
+    let planned = planned.position(|pattern| pattern == Pattern::Autorotation);
     let mut all = Vec::new();
     for method in Method::ALL {
         let start = Start {
@@ -38,7 +38,11 @@ pub fn strip(prepared: &Prepared) -> Result<String, Failure> {
         let until = fall.moments.iter().position(|m| m.position.y < -HEIGHT);
         let moments = fall.moments[..until.unwrap_or(fall.moments.len())].to_vec();
         let fall = Trajectory { moments, ..fall };
-        let title = format!("{}, {:.1} s", method.name(), fall.duration());
+        let asked = match (method, planned) {
+            (Method::Pattern, Some(_)) => ": to tumble",
+            _ => "",
+        };
+        let title = format!("{}{asked}, {:.1} s", method.name(), fall.duration());
         all.push((title, fall));
     }
     let drawn: Vec<Vec<Line>> = all

@@ -3,8 +3,12 @@
 //! rapier (§7.3), and prints the errors.
 //!
 //! ```text
-//! cargo run --release --example reduced_models -- --out out
+//! cargo run --release --example reduced_models -- --out out                             # a minute
+//! cargo run --release --example reduced_models -- --out out --only planar,plate,card    # four minutes
 //! ```
+//!
+//! The errors against the horizon are measured at 150 points off the grid of each of two domains, by up to five methods:
+//! those three figures are drawn only when they are named.
 
 mod alternatives;
 mod chart;
@@ -28,11 +32,12 @@ struct Arguments {
     /// Directory for the pictures.
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// Draw only these: linear, falling, coupled, kirchhoff, planar, plate, card, driven.
+    /// Draw only these. All there are: linear, falling, coupled, kirchhoff, driven, and, of half a minute to two minutes each,
+    /// planar, plate, card
     #[arg(
         long,
         value_delimiter = ',',
-        default_value = "linear,falling,coupled,kirchhoff,planar,plate,card,driven"
+        default_value = "linear,falling,coupled,kirchhoff,driven"
     )]
     only: Vec<String>,
     /// Print the numbers behind the pictures as JSON.

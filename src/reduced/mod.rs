@@ -97,8 +97,8 @@
 //! a thousandth apart. A law of closed formulas is cheaper itself; the table stands for those that are not.
 //!
 //! **The thesis's own examples** (§6.4): (6.18) one mode, error 1e-11 as printed. (6.20) error 1e-4 after five enrichments, the thesis's count.
-//! (6.22) error 1e-3 after 8 enrichments, 4e-6 finally, baked in a second; all final states of 20³ initial values in under 1 ms,
-//! 700 times faster than solving for each (printed: 17 ms, 50 times; benches `reduced`), on [0, ½] where the solution exists. (6.24) with gravity that turns, and its
+//! (6.22) error 1e-3 after 8 enrichments, 4e-6 finally, baked in a second; all final states of 20³ initial values in 0.1 ms,
+//! 300 times faster than solving for each (printed: 17 ms, 50 times; figure `coupled`), on [0, ½] where the solution exists. (6.24) with gravity that turns, and its
 //! torque: 6e-4 after 45 enrichments over [0, 1]⁶ (figure `kirchhoff`).
 //!
 //! ```

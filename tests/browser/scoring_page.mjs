@@ -12,10 +12,17 @@ import { pause, withTab } from "./chromium.mjs";
 const [page, folder] = process.argv.slice(2);
 
 await withTab(folder, async ({ send, evaluate, screenshot, size }) => {
+  const until = async what => {
+    for (let tries = 0; tries < 200; tries++) {
+      if (await evaluate(what)) return;
+      await pause(50);
+    }
+    assert.fail(`${what}: not within ten seconds`);
+  };
   const open = async () => {
     await send("Page.navigate", { url: "about:blank" });
     await send("Page.navigate", { url: pathToFileURL(resolve(page)).href });
-    await pause(500);
+    await until("document.readyState === 'complete' && window.questionnaire !== undefined");
     return evaluate("questionnaire.order.map(film => film.key)");
   };
   const orders = [];
@@ -33,7 +40,7 @@ await withTab(folder, async ({ send, evaluate, screenshot, size }) => {
   const films = await evaluate("questionnaire.order.length");
   for (let i = 0; i < films; i++) {
     assert.equal(await evaluate("questionnaire.at"), i);
-    assert(await evaluate("[...document.images].every(image => image.complete && image.naturalWidth > 0)"), "films are shown");
+    await until("[...document.images].every(image => image.complete && image.naturalWidth > 0)");
     assert(!await evaluate("questionnaire.order.some(film => document.body.innerText.includes(film.name))"), "nobody is told which method it is");
     if (i < 2) await screenshot(`scoring-${i}`);
     await choose("similarity", 1 + i % 5);
