@@ -79,9 +79,9 @@ pub fn draw(context: &Context, arguments: &BodyArguments) -> Result<Value, Error
     let numbers =
         DimensionlessNumbers::new(outline, length, thickness, arguments.density, &fluid, 9.81)?;
     let descent = numbers.broadside_descent();
-    let reynolds = numbers.reynolds_at(descent);
+    let reynolds = numbers.reynolds();
     let diagram = PhaseDiagram::default();
-    let regime = diagram.regime(reynolds, numbers.i_star);
+    let regime = diagram.regime_of(&numbers);
     let near = diagram.neighbours(reynolds, numbers.i_star, 0.2);
 
     let (low, high): ([f64; 2], [f64; 2]) = ([20.0, 2e-4], [5e4, 0.3]);

@@ -289,16 +289,16 @@ pub fn bodies(
     let (mut prescribed, mut sampled) = (Vec::new(), Vec::new());
     for ((body, case), regimes) in bodies.iter().zip(PhaseDiagram::THESIS_CASES).zip(shown) {
         // Deviations are proportional to L/a; the slender paper would land four meters away.
-        let deviation = Deviation {
+        let deviations = Regime::ALL.map(|regime| Deviation {
             coefficient: body.numbers.length / body.length,
-            ..Deviation::default()
-        };
+            ..Deviation::of(regime)
+        });
         let own = SynthesisParams {
-            deviation,
+            deviations,
             ..SynthesisParams::default()
         };
         let thesis = SynthesisParams {
-            deviation,
+            deviations,
             ..SynthesisParams::of_case(&case)
         };
         let own = body.synthesizer(own, database)?;
@@ -306,7 +306,7 @@ pub fn bodies(
         // A chord of less than a fiftieth of the height would hardly be seen.
         let enlarged = (0.02 * body.height / body.numbers.length).max(1.0).round();
         let names: Vec<&str> = regimes.iter().map(|r| r.abbreviation()).collect();
-        let (re, i_star) = (body.numbers.reynolds_u0, body.numbers.i_star);
+        let (re, i_star) = (body.numbers.reynolds(), body.numbers.i_star);
         let height = match enlarged > 1.0 {
             true => format!("y, m (chords × {enlarged})"),
             false => "y, m".to_string(),

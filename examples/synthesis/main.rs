@@ -19,7 +19,10 @@
 #[path = "../support/draw.rs"]
 #[allow(dead_code, reason = "shared with other examples")]
 mod draw;
+mod estimate;
 mod figures;
+#[path = "../support/mod.rs"]
+mod support;
 mod tree;
 
 use clap::Parser;
@@ -49,6 +52,13 @@ struct Arguments {
     /// Bake the default database into this file, and do nothing else
     #[arg(long)]
     write_database: Option<PathBuf>,
+    /// Estimate transition probabilities, deviations and the border of the spiral into this file from falls
+    /// under the default law and tracked ones, and do nothing else
+    #[arg(long)]
+    estimate: Option<PathBuf>,
+    /// Falls that are computed for it
+    #[arg(long, default_value_t = 12_000, value_parser = clap::value_parser!(u64).range(100..))]
+    falls: u64,
     /// Print numbers as JSON instead of text
     #[arg(long)]
     json: bool,
@@ -126,6 +136,17 @@ fn main() {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
+    if let Some(path) = &arguments.estimate {
+        let tracked = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/paper/falls.csv");
+        let tracked = std::fs::read_to_string(tracked)
+            .map_err(|error| format!("cannot read {tracked}: {error}"))?;
+        let bar = support::cli::progress(arguments.falls, "falls of discs");
+        let table = estimate::table(arguments.falls, &tracked, || bar.inc(1))?;
+        bar.finish_and_clear();
+        std::fs::write(path, table)
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        return Ok(());
+    }
     if let Some(path) = &arguments.write_database {
         let (database, report) = TrajectoryDatabase::bake(&DatabaseParams::default())?;
         std::fs::write(path, database.to_bytes())

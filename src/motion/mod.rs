@@ -22,13 +22,13 @@
 //! let mass = DryMass::of_body(&world.bodies, &world.colliders, coin)?;
 //! let numbers = DimensionlessNumbers::of(&hydro, &mass, &Fluid::WATER, 9.81)?;
 //! // A coin that sinks flutters from side to side.
-//! let reynolds = numbers.reynolds_at(numbers.broadside_descent());
-//! assert_eq!(PhaseDiagram::default().regime(reynolds, numbers.i_star), Regime::TransitionalChaotic);
+//! assert_eq!(PhaseDiagram::default().regime_of(&numbers), Regime::TransitionalChaotic);
 //! # Ok::<(), rapier3d_immersed::Error>(())
 //! ```
 
 mod classify;
 mod codebook;
+mod estimates;
 mod graph;
 mod numbers;
 pub mod path;
@@ -40,6 +40,7 @@ mod turning;
 
 pub use classify::{Classifier, Observation};
 pub use codebook::{Codebook, ControlSeries, Dwell};
+pub use estimates::{Estimate, EstimateSource, FallEstimates};
 pub use graph::MotionGraph;
 pub use numbers::{DimensionlessNumbers, Outline};
 pub use pattern::{Pattern, Regime, UnknownPattern};

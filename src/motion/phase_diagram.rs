@@ -1,5 +1,7 @@
 //! The Re–I* phase diagram: which regime a body falls in (thesis Fig. 3.3).
 
+use super::estimates::FallEstimates;
+use super::numbers::DimensionlessNumbers;
 use super::pattern::Regime;
 use crate::error::Error;
 
@@ -60,10 +62,10 @@ const TUMBLING: [(f64, f64); 7] = [
 /// Steady, periodic, chaotic and tumbling motion are separated by the curves measured with discs by
 /// Field et al. (1997). Helix and spiral have no public numeric boundary: they lie in the periodic
 /// region above the Reynolds number where the flutter's amplitude stops growing (Zhong et al. 2013),
-/// in the order flutter, helix, spiral as I* falls (Zhong, Chen & Lee 2011). The I* that separate
-/// them by default are the geometric means of the cases that the thesis prints
-/// ([`PhaseDiagram::THESIS_CASES`]), which therefore say nothing for them: only the order is tested,
-/// where the borders lie is not.
+/// in the order flutter, helix, spiral as I* falls (Zhong, Chen & Lee 2011). The I* of the spiral is
+/// where this crate's own discs begin to circle ([`FallEstimates`]); they do so from Re = 160 on, whatever
+/// was published. None of them stays in a helix: its I* is a convention, the geometric mean of the
+/// coin and the leaf that the thesis prints ([`PhaseDiagram::THESIS_CASES`]).
 ///
 /// ```
 /// use rapier3d_immersed::motion::{PhaseDiagram, Regime};
@@ -80,9 +82,9 @@ const TUMBLING: [(f64, f64); 7] = [
 pub struct PhaseDiagram {
     /// Re above which periodic motion can leave its plane (default 2000).
     pub helix_reynolds: f64,
-    /// I* below which it does so as a helix (default 7.9·10⁻³).
+    /// I* below which it does so as a helix (default 7.9·10⁻³, a convention).
     pub helix_below: f64,
-    /// I* below which it is a spiral (default 3.7·10⁻³).
+    /// I* below which it is a spiral (default from own falls, 3.2·10⁻³).
     pub spiral_below: f64,
 }
 
@@ -91,7 +93,7 @@ impl Default for PhaseDiagram {
         Self {
             helix_reynolds: 2000.0,
             helix_below: 7.9e-3,
-            spiral_below: 3.7e-3,
+            spiral_below: FallEstimates::shipped().spiral_below(),
         }
     }
 }
@@ -116,7 +118,7 @@ pub struct Boundary {
     pub between: [Regime; 2],
     /// Points (Re, I*).
     pub points: Vec<(f64, f64)>,
-    /// Whether it was measured; otherwise it is a convention.
+    /// Whether it was measured; otherwise it is a convention or from own falls.
     pub measured: bool,
 }
 
@@ -175,6 +177,13 @@ impl PhaseDiagram {
         } else {
             Regime::PeriodicSpiral
         }
+    }
+
+    /// The regime that a body of these numbers is expected to fall in, before it has fallen: at its I* and
+    /// the Reynolds number of its estimated mean descent
+    /// ([`DimensionlessNumbers::reynolds`](super::DimensionlessNumbers::reynolds)).
+    pub fn regime_of(&self, numbers: &DimensionlessNumbers) -> Regime {
+        self.regime(numbers.reynolds(), numbers.i_star)
     }
 
     /// The other regimes within a factor `1 ± margin` of the point in Re or I*, in order. Measurements

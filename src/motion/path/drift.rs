@@ -1,52 +1,45 @@
-//! When a fall drifts away from below its release.
+//! How a fall drifts away from below its release, faster in some regimes than in others.
 
 use super::piece::Piece;
-use crate::motion::Regime;
 
-/// When a fall drifts away from below its release: in steady descent a tenth as fast as otherwise.
+/// The way drifted by each time, with a speed that depends on the regime.
 pub(super) struct Drifts {
-    /// Beginning of each piece, time drifted until then, share before it and in it.
+    /// Beginning of each piece, way drifted until then, speed before it and in it.
     parts: Vec<(f64, f64, [f64; 2])>,
-    /// How long the share takes to change, s.
+    /// How long the speed takes to change, s.
     blend: f64,
 }
 
-/// Drift of a steady descent over that of other regimes. Thesis § 3.3.5 says that deviations differ by
-/// pattern, without numbers; this one is ours.
-const STEADY_DRIFT: f64 = 0.1;
-
 impl Drifts {
-    pub fn of(pieces: &[Piece], blend: f64) -> Self {
+    /// Drifts at these speeds of the six regimes, in any unit.
+    pub fn of(pieces: &[Piece], blend: f64, speeds: [f64; 6]) -> Self {
         let mut drifts = Self {
             parts: Vec::new(),
             blend,
         };
         for piece in pieces {
-            let share = match piece.regime {
-                Regime::SteadyDescent => STEADY_DRIFT,
-                _ => 1.0,
-            };
+            let speed = speeds[piece.regime as usize];
             let (drifted, before) = match drifts.parts.is_empty() {
-                true => (0.0, share),
+                true => (0.0, speed),
                 false => drifts.until(piece.start),
             };
-            drifts.parts.push((piece.start, drifted, [before, share]));
+            drifts.parts.push((piece.start, drifted, [before, speed]));
         }
         drifts
     }
 
-    /// Time drifted until a time, s, and its derivative.
+    /// Way drifted until a time, s, and its derivative.
     pub fn until(&self, time: f64) -> (f64, f64) {
         let after = self.parts.partition_point(|part| part.0 <= time);
-        let (start, drifted, [before, share]) = self.parts[after.max(1) - 1];
+        let (start, drifted, [before, speed]) = self.parts[after.max(1) - 1];
         let t = time - start;
-        // The share changes by the smooth step 3s² − 2s³; its integral is s³ − s⁴/2.
+        // The speed changes by the smooth step 3s² − 2s³; its integral is s³ − s⁴/2.
         let s = (t / self.blend).min(1.0);
         let step = s * s * (3.0 - 2.0 * s);
         let left = self.blend * (s - s * s * s * (1.0 - 0.5 * s));
         (
-            drifted + share * t + (before - share) * left,
-            before + (share - before) * step,
+            drifted + speed * t + (before - speed) * left,
+            before + (speed - before) * step,
         )
     }
 }

@@ -10,22 +10,26 @@ use crate::motion::{MotionGraph, PhaseDiagram, Regime};
 pub struct SynthesisParams {
     /// h: height of release, m. Default 2.
     pub height: f64,
-    /// The main regime; `None` (the default) looks it up in `diagram` at Re = U0 L/ν and I*.
+    /// The main regime; `None` (the default) looks it up in `diagram`
+    /// ([`PhaseDiagram::regime_of`]).
     pub main: Option<Regime>,
     /// The phase diagram.
     pub diagram: PhaseDiagram,
-    /// Which regime follows which. Default [`MotionGraph::free_fall`].
-    pub graph: MotionGraph,
-    /// How far falls land from below their release, which gives the amplitude too. Default
-    /// [`Deviation::default`].
-    pub deviation: Deviation,
+    /// Which regime follows which; `None` (the default) takes [`MotionGraph::free_fall`] of the main regime.
+    pub graph: Option<MotionGraph>,
+    /// How far falls land from below their release, by [regime](Regime::ALL); a fall of several lands as far
+    /// away as each does in its share of the time. Default [`Deviation::of`] each.
+    pub deviations: [Deviation; 6],
     /// Ω over U/a: angular frequency of flutter and tumbling, Ω ~ √((ρ_s/ρ_f − 1) g b)/a (thesis § 3.3.5 has
-    /// √b/a, after Mahadevan, Ryu & Samuel 1999). Default 1.
+    /// √b/a, after Mahadevan, Ryu & Samuel 1999). Default 1, a convention: flutters of this crate's discs have
+    /// 2.3 in the median, tumbling ones 1.5 (`frequency` in the [`FallEstimates`](crate::motion::FallEstimates)).
     pub frequency: f64,
-    /// Amplitude over the A_0 of (3.10). With A_0 itself a swing would be just as fast as the fall drifts
-    /// away, so that nothing would ever swing back. Default 2.5 (ours).
+    /// Amplitude AΩ of the horizontal velocity of a swing, in U L/a. With the A_0 of (3.10) a swing would be just
+    /// as fast as the fall drifts away, so that nothing would ever swing back. Default 0.75, a convention:
+    /// flutters of this crate's discs have 0.45 in the median, spirals 1.0 (`swing` in the estimates).
     pub swing: f64,
-    /// How much slower a spiral or helix turns than a flutter swings. Default 3 (ours).
+    /// How much slower a spiral or helix turns than a flutter swings. Default 3, a convention: spirals of this
+    /// crate's discs are small and fast, 4.3 U/a in the median.
     pub slowness: f64,
     /// ε of the helix. Default 0.3.
     pub ellipticity: f64,
@@ -57,10 +61,10 @@ impl Default for SynthesisParams {
             height: 2.0,
             main: None,
             diagram: PhaseDiagram::default(),
-            graph: MotionGraph::free_fall(),
-            deviation: Deviation::default(),
+            graph: None,
+            deviations: Regime::ALL.map(Deviation::of),
             frequency: 1.0,
-            swing: 2.5,
+            swing: 0.75,
             slowness: 3.0,
             ellipticity: 0.3,
             blend: 0.5,
@@ -98,9 +102,13 @@ impl SynthesisParams {
     pub fn check(&self) -> Result<(), Error> {
         Error::check_positive("height", self.height)?;
         self.diagram.check()?;
-        self.graph.check()?;
-        Error::check_length("states of the motion graph", 6, self.graph.states())?;
-        self.deviation.check()?;
+        if let Some(graph) = &self.graph {
+            graph.check()?;
+            Error::check_length("states of the motion graph", 6, graph.states())?;
+        }
+        for deviation in &self.deviations {
+            deviation.check()?;
+        }
         Error::check_positive("frequency", self.frequency)?;
         Error::check_not_negative("swing", self.swing)?;
         Error::check_positive("slowness", self.slowness)?;

@@ -131,21 +131,60 @@ pub(super) struct Piece<'a> {
     /// When it begins, s, and how long it lasts, s.
     pub start: f64,
     pub duration: f64,
-    /// How long the splice takes, s.
-    blend: f64,
     origin: Vector3<f64>,
-    /// Velocity that the piece before ended with, less this one's.
-    velocity: Vector3<f64>,
-    /// Rotation from this one's first attitude to the last one before.
-    turn: UnitQuaternion<f64>,
+    join: Join,
     /// Half turn about an axis of the plate, under which it looks the same.
     flip: UnitQuaternion<f64>,
 }
 
+/// What is left of the motion before a splice: a velocity difference Δv fades as Δv t(1 − t/T)² (no
+/// displacement is left), a rotation by a smooth step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Join {
+    /// How long the splice takes, s.
+    pub blend: f64,
+    /// Velocity that the motion before ended with, less this one's.
+    pub velocity: Vector3<f64>,
+    /// Rotation from this one's first attitude to the last one before.
+    pub turn: UnitQuaternion<f64>,
+}
+
+impl Join {
+    /// Nothing is left of anything before.
+    pub fn none(blend: f64) -> Self {
+        Self {
+            blend,
+            velocity: Vector3::zeros(),
+            turn: UnitQuaternion::identity(),
+        }
+    }
+
+    /// The motion `own` as it looks `t` seconds after the splice.
+    pub fn at(&self, t: f64, own: &Instant) -> Instant {
+        let left = (1.0 - t / self.blend).max(0.0);
+        let share = 1.0 - smooth(1.0 - left);
+        Instant {
+            position: own.position + self.velocity * (t * left * left),
+            velocity: own.velocity + self.velocity * (left * (left - 2.0 * t / self.blend)),
+            attitude: self.turn.powf(share) * own.attitude,
+        }
+    }
+}
+
+/// Half turns about the axes of a plate, under which it looks the same, and none.
+pub(super) fn half_turns() -> [UnitQuaternion<f64>; 4] {
+    let half = |axis| UnitQuaternion::from_axis_angle(&axis, std::f64::consts::PI);
+    [
+        UnitQuaternion::identity(),
+        half(Vector3::x_axis()),
+        half(Vector3::y_axis()),
+        half(Vector3::z_axis()),
+    ]
+}
+
 impl<'a> Piece<'a> {
-    /// A piece after one that ended at `before`: it starts where that ended, a velocity difference Δv
-    /// fades as Δv t(1 − t/T)² (no displacement is left), a rotation by a smooth step. A piece shorter
-    /// than T leaves the rest to the next one.
+    /// A piece after one that ended at `before`: it starts where that ended, and is [joined](Join) to it. A
+    /// piece shorter than the splice leaves the rest to the next one.
     pub fn after(
         before: Option<&Instant>,
         course: Course<'a>,
@@ -161,44 +200,36 @@ impl<'a> Piece<'a> {
             regime,
             start,
             duration,
-            blend,
             origin: Vector3::zeros(),
-            velocity: Vector3::zeros(),
-            turn: UnitQuaternion::identity(),
+            join: Join::none(blend),
             flip: UnitQuaternion::identity(),
         };
         if let Some(before) = before {
             piece.origin = before.position;
-            piece.velocity = before.velocity - own.velocity;
-            let half = |axis| UnitQuaternion::from_axis_angle(&axis, std::f64::consts::PI);
-            let flips = [
-                UnitQuaternion::identity(),
-                half(Vector3::x_axis()),
-                half(Vector3::y_axis()),
-                half(Vector3::z_axis()),
-            ];
+            piece.join.velocity = before.velocity - own.velocity;
             let away =
                 |flip: &UnitQuaternion<f64>| (own.attitude * flip).angle_to(&before.attitude);
-            for flip in flips {
+            for flip in half_turns() {
                 if away(&flip) < away(&piece.flip) - 1e-9 {
                     piece.flip = flip;
                 }
             }
-            piece.turn = before.attitude * (own.attitude * piece.flip).inverse();
+            piece.join.turn = before.attitude * (own.attitude * piece.flip).inverse();
         }
         piece
     }
 
     /// The moment `t` seconds after the beginning.
     pub fn at(&self, t: f64, units: &Units) -> Instant {
-        let own = self.course.at(t, self.duration, units);
-        let left = (1.0 - t / self.blend).max(0.0);
-        let share = 1.0 - smooth(1.0 - left);
-        Instant {
-            position: self.origin + own.position + self.velocity * (t * left * left),
-            velocity: own.velocity + self.velocity * (left * (left - 2.0 * t / self.blend)),
-            attitude: self.turn.powf(share) * own.attitude * self.flip,
-        }
+        let mut own = self.course.at(t, self.duration, units);
+        own.position += self.origin;
+        own.attitude *= self.flip;
+        self.join.at(t, &own)
+    }
+
+    /// What the splice has to hide: the jump of the velocity, m/s, and of the attitude, rad.
+    pub fn jump(&self) -> (f64, f64) {
+        (self.join.velocity.norm(), self.join.turn.angle())
     }
 }
 

@@ -1,5 +1,6 @@
 //! From a body and a fluid to a fall (thesis § 3.4, § 3.6).
 
+use super::amplitude::normals;
 use super::chain::calmed;
 use super::database::TrajectoryDatabase;
 use super::drift::Drifts;
@@ -52,6 +53,17 @@ pub struct Synthesizer {
     pub(super) amplitude: f64,
 }
 
+/// Where one motion is spliced to another, and what that has to hide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Splice {
+    /// The regimes before and after.
+    pub regimes: [Regime; 2],
+    /// Jump of the velocity, m/s, the derivative of the position.
+    pub velocity: f64,
+    /// Jump of the attitude, rad.
+    pub angle: f64,
+}
+
 /// Keyframes that a path may have.
 const MOST_KEYS: f64 = 1e6;
 
@@ -80,14 +92,18 @@ impl Synthesizer {
         Error::check_range("keyframes", keys, 0.0, MOST_KEYS)?;
         let main = params
             .main
-            .unwrap_or_else(|| params.diagram.regime(numbers.reynolds_u0, numbers.i_star));
+            .unwrap_or_else(|| params.diagram.regime_of(numbers));
         let aspect = length / chord;
         let frequency = params.frequency * descent / chord;
         let possible: Vec<bool> = Regime::ALL.iter().map(|r| *r <= main).collect();
+        let graph = match &params.graph {
+            Some(graph) => graph.clone(),
+            None => MotionGraph::free_fall(main),
+        };
         let strength = params.wind / (params.calming_wind * descent);
         Ok(Self {
             database,
-            graph: calmed(&params.graph, (-strength * strength).exp())?.restricted(&possible)?,
+            graph: calmed(&graph, (-strength * strength).exp())?.restricted(&possible)?,
             main,
             units: Units {
                 length: chord,
@@ -97,7 +113,7 @@ impl Synthesizer {
             },
             aspect,
             frequency,
-            amplitude: params.swing * params.deviation.amplitude(aspect, descent, frequency),
+            amplitude: params.swing * aspect * descent / frequency,
             params,
         })
     }
@@ -126,19 +142,43 @@ impl Synthesizer {
     /// gives the same fall.
     ///
     /// It takes h/U and lands at a turning point, at (r, −h, s), r and s drawn from the
-    /// [`Deviation`](super::Deviation), less for the time that it falls steadily (a tenth counts). Whoever
-    /// places it in the world turns it about the vertical.
+    /// [`Deviation`](super::Deviation)s of its regimes, each for its share of the time. Whoever places it in
+    /// the world turns it about the vertical.
     pub fn path(&self, seed: u64) -> MotionPath {
         let mut random = Pcg64Mcg::seed_from_u64(seed);
+        self.fall(&mut random, self.chain())
+    }
+
+    /// The splices of [`path`](Self::path) with the same seed between one regime and the next: what each has
+    /// to hide.
+    pub fn splices(&self, seed: u64) -> Vec<Splice> {
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let levels = self.levels(self.duration(), self.chain(), &mut random);
+        let pieces = self.splice(&levels, &mut random);
+        let changes = pieces.windows(2).filter(|p| p[0].regime != p[1].regime);
+        changes
+            .map(|pair| {
+                let (velocity, angle) = pair[1].jump();
+                Splice {
+                    regimes: [pair[0].regime, pair[1].regime],
+                    velocity,
+                    angle,
+                }
+            })
+            .collect()
+    }
+
+    /// Draws regime after regime.
+    fn chain(&self) -> impl FnMut(f64, &mut Pcg64Mcg) -> (Regime, f64) {
         let mut state: Option<usize> = None;
-        self.fall(&mut random, |_, random| {
+        move |_, random| {
             let next = match state {
                 None => self.graph.draw_start(random),
                 Some(state) => self.graph.draw_next(state, random),
             };
             state = Some(next);
             (Regime::ALL[next], f64::INFINITY)
-        })
+        }
     }
 
     /// A fall of chosen regimes, each for an equal share of the time; a short fall does not come to the
@@ -178,6 +218,18 @@ impl Synthesizer {
         }))
     }
 
+    /// How fast each regime drifts, relative to the fastest: as far as it deviates.
+    fn drift_speeds(&self) -> [f64; 6] {
+        // Something has to take up what is missing to the landing where nothing deviates.
+        const SLOWEST: f64 = 1e-3;
+        let means = self.params.deviations.map(|d| d.distance(1.0, 1.0));
+        let most = means.into_iter().fold(0.0, f64::max);
+        means.map(|mean| match most > 0.0 {
+            true => (mean / most).max(SLOWEST),
+            false => 1.0,
+        })
+    }
+
     /// Time of a fall, s: h/U.
     fn duration(&self) -> f64 {
         self.params.height / self.units.descent
@@ -191,10 +243,17 @@ impl Synthesizer {
         let duration = self.duration();
         let levels = self.levels(duration, regime, random);
         let pieces = self.splice(&levels, random);
-        let drifts = Drifts::of(&pieces, self.params.blend * PI / self.frequency);
-        let deviation = &self.params.deviation;
-        let drawn = deviation.draw(self.aspect, self.params.height, random);
-        let [along, across] = drawn.map(|r| r * (drifts.until(duration).0 / duration));
+        let blend = self.params.blend * PI / self.frequency;
+        let normal = normals(random);
+        let landings = self
+            .params
+            .deviations
+            .map(|d| d.landing(self.aspect, self.params.height, normal));
+        let [along, across] = [0, 1].map(|axis| {
+            let speeds = landings.map(|landing| landing[axis] / duration);
+            Drifts::of(&pieces, blend, speeds).until(duration).0
+        });
+        let drifts = Drifts::of(&pieces, blend, self.drift_speeds());
         let landing = Vector3::new(along, -self.params.height, across);
         let at = |time: f64| {
             let after = pieces.partition_point(|piece| piece.start <= time);
@@ -282,15 +341,20 @@ mod tests {
         }
     }
 
-    /// A steady fall drifts a tenth as far as a flutter whose landing is drawn alike, and a fall of both
+    /// A steady fall that deviates a tenth as far as a flutter drifts a tenth as far, and a fall of both
     /// drifts in its second half: velocities are derivatives there too (the test above).
     #[test]
     fn steady_descent_hardly_drifts() {
         let leaf = leaf(SynthesisParams {
-            deviation: Deviation {
+            deviations: Regime::ALL.map(|regime| Deviation {
+                coefficient: match regime {
+                    Regime::SteadyDescent => 0.1,
+                    _ => 1.0,
+                },
+                mean: 0.3,
                 width: 0.0,
-                ..Deviation::default()
-            },
+                across: 0.0,
+            }),
             main: Some(Regime::PeriodicFlutter),
             ..SynthesisParams::default()
         });
@@ -321,8 +385,8 @@ mod tests {
         refused(&|p| p.height = 0.0);
         refused(&|p| p.height = f64::NAN);
         refused(&|p| p.height = 1e9);
-        refused(&|p| p.graph = MotionGraph::thesis());
-        refused(&|p| p.deviation.width = -1.0);
+        refused(&|p| p.graph = Some(MotionGraph::thesis()));
+        refused(&|p| p.deviations[3].width = -1.0);
         refused(&|p| p.interval = 0.0);
         refused(&|p| p.wind = f64::INFINITY);
         let light =
