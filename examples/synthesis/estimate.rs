@@ -4,13 +4,13 @@
 //! Discs cover the phase diagram, and releases all tilts, evenly: fall k is point k of a low-discrepancy
 //! sequence (the R₃ of Roberts), so that the first few of many falls are a sample of all of it.
 
-use rayon::prelude::*;
 use rapier3d_immersed::motion::{
     Classifier, DimensionlessNumbers, Estimate, EstimateSource, FallEstimates, Moment, Regime,
 };
 use rapier3d_immersed::training::FallStatistics;
 use rapier3d_immersed::training::fidelity::Disc;
 use rapier3d_immersed::{Error, ViscousLaw};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Ranges of Re (of the broadside disc) and I*.
@@ -22,8 +22,6 @@ pub const WINDOW: usize = 4;
 /// What one fall showed.
 #[derive(Clone, Debug)]
 pub struct Fall {
-    /// Re of the mean descent.
-    pub reynolds: f64,
     pub i_star: f64,
     /// The regime of the last three fifths.
     pub main: Regime,
@@ -51,7 +49,6 @@ pub fn fall(index: u64) -> Result<Fall, Error> {
     let experiment = disc.experiment(&ViscousLaw::default(), tilt, index)?;
     let fall = experiment.run()?;
     let statistics = FallStatistics::of(&fall);
-    let measured = disc.measure(&experiment, &fall);
     let classifier = Classifier::default();
     let moments = &fall.moments;
     let numbers = DimensionlessNumbers::of(
@@ -72,7 +69,6 @@ pub fn fall(index: u64) -> Result<Fall, Error> {
     let landing = moments[moments.len() - 1].position - moments[0].position;
     let swing = swing(&moments[moments.len() / 2..]);
     Ok(Fall {
-        reynolds: measured.reynolds,
         i_star,
         main: classifier.observe(&moments[skipped..]).regime,
         labels: labels.collect(),
@@ -91,8 +87,14 @@ fn swing(moments: &[Moment]) -> f64 {
         let x = |i: usize| moments[i].position[axis];
         let indices = 0..moments.len();
         let mean = indices.clone().map(x).sum::<f64>() / n;
-        let slope = indices.clone().map(|i| (i as f64 - middle) * x(i)).sum::<f64>()
-            / indices.clone().map(|i| (i as f64 - middle).powi(2)).sum::<f64>();
+        let slope = indices
+            .clone()
+            .map(|i| (i as f64 - middle) * x(i))
+            .sum::<f64>()
+            / indices
+                .clone()
+                .map(|i| (i as f64 - middle).powi(2))
+                .sum::<f64>();
         square += indices
             .map(|i| (x(i) - mean - slope * (i as f64 - middle)).powi(2))
             .sum::<f64>()
@@ -160,34 +162,47 @@ fn border(falls: &[(f64, bool)]) -> (f64, usize) {
 /// The estimates from these own falls.
 pub fn own(falls: &[Fall]) -> Vec<Estimate> {
     let mut rows = Vec::new();
-    let mut add = |quantity: &str, states: [Option<Regime>; 3], (value, error): (f64, f64), count| {
-        rows.push(Estimate {
-            quantity: quantity.into(),
-            source: EstimateSource::Own,
-            main: states[0],
-            from: states[1],
-            to: states[2],
-            value,
-            error,
-            count: count as u64,
-        });
-    };
+    let mut add =
+        |quantity: &str, states: [Option<Regime>; 3], (value, error): (f64, f64), count| {
+            rows.push(Estimate {
+                quantity: quantity.into(),
+                source: EstimateSource::Own,
+                main: states[0],
+                from: states[1],
+                to: states[2],
+                value,
+                error,
+                count: count as u64,
+            });
+        };
     let n = falls.len() as f64;
     for main in Regime::ALL {
         let these: Vec<&Fall> = falls.iter().filter(|fall| fall.main == main).collect();
         let share = these.len() as f64 / n;
         let error = (share * (1.0 - share) / n).sqrt();
-        add("falls", [Some(main), None, None], (share, error), these.len());
+        add(
+            "falls",
+            [Some(main), None, None],
+            (share, error),
+            these.len(),
+        );
         if these.len() < 2 {
             continue;
         }
         for first in Regime::ALL {
-            let hits = these.iter().filter(|fall| fall.labels.first() == Some(&first));
+            let hits = these
+                .iter()
+                .filter(|fall| fall.labels.first() == Some(&first));
             let hits = hits.count();
             let share = hits as f64 / these.len() as f64;
             let error = (share * (1.0 - share) / these.len() as f64).sqrt();
             if hits > 0 {
-                add("start", [Some(main), None, Some(first)], (share, error), hits);
+                add(
+                    "start",
+                    [Some(main), None, Some(first)],
+                    (share, error),
+                    hits,
+                );
             }
         }
         for from in Regime::ALL {
@@ -230,7 +245,12 @@ pub fn own(falls: &[Fall]) -> Vec<Estimate> {
         };
         let (value, wrong) = border(&oscillating);
         let none = [None; 3];
-        add("spiral_below", none, (value, mean(&tenths).1), oscillating.len());
+        add(
+            "spiral_below",
+            none,
+            (value, mean(&tenths).1),
+            oscillating.len(),
+        );
         let share = wrong as f64 / oscillating.len() as f64;
         let error = (share * (1.0 - share) / oscillating.len() as f64).sqrt();
         add("spiral_wrong_side", none, (share, error), wrong);
@@ -240,7 +260,10 @@ pub fn own(falls: &[Fall]) -> Vec<Estimate> {
         .map(|fall| {
             let pairs = || fall.labels.windows(2);
             let back = pairs().filter(|pair| pair[1] < pair[0]).count();
-            (back as f64, pairs().filter(|pair| pair[1] != pair[0]).count() as f64)
+            (
+                back as f64,
+                pairs().filter(|pair| pair[1] != pair[0]).count() as f64,
+            )
         })
         .collect();
     let count: f64 = changes.iter().map(|(_, all)| all).sum();
@@ -271,7 +294,9 @@ fn tracks(text: &str) -> Result<Vec<Track>, String> {
             let fields: Vec<&str> = line.split(',').collect();
             let number = |column: usize| {
                 let field = fields.get(column).ok_or("a short row")?;
-                field.parse::<f64>().map_err(|_| format!("{field} is no number"))
+                field
+                    .parse::<f64>()
+                    .map_err(|_| format!("{field} is no number"))
             };
             Ok(Track {
                 fall: format!("{} {}", fields[shape], fields[fall]),
@@ -284,6 +309,16 @@ fn tracks(text: &str) -> Result<Vec<Track>, String> {
             })
         })
         .collect()
+}
+
+/// The classes of each tracked fall in their order, without the beginnings, which are no terminal motion.
+pub fn tracked_sequences(text: &str) -> Result<Vec<Vec<Regime>>, String> {
+    let tracks = tracks(text)?;
+    let falls = tracks.chunk_by(|a, b| a.fall == b.fall);
+    let sequences = falls.map(|fall| fall.iter().filter_map(|track| track.class).collect());
+    Ok(sequences
+        .filter(|sequence: &Vec<_>| !sequence.is_empty())
+        .collect())
 }
 
 /// The estimates from tracked falls of paper: B and C of whole segments, and how often a fall that begins
@@ -308,7 +343,9 @@ pub fn tracked(text: &str) -> Result<Vec<Estimate>, String> {
         let values: Vec<f64> = these.map(|track| track.deviation).collect();
         add("deviation_mean", regime, mean(&values), values.len());
         add("deviation_width", regime, width(&values), values.len());
-        let pairs = tracks.windows(2).filter(|pair| pair[0].fall == pair[1].fall);
+        let pairs = tracks
+            .windows(2)
+            .filter(|pair| pair[0].fall == pair[1].fall);
         let (mut hits, mut all) = (0, 0);
         for pair in pairs {
             all += 1;

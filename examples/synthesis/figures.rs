@@ -47,7 +47,7 @@ pub fn legend() -> Vec<(String, RGBColor)> {
 }
 
 /// A path in the colours of its regimes, over the body's chord every `every` seconds.
-fn trace(path: &MotionPath, chord: f64, every: Real) -> Vec<Item> {
+pub fn trace(path: &MotionPath, chord: f64, every: Real) -> Vec<Item> {
     let mut items = Vec::new();
     let mut time = 0.0;
     while time <= path.duration() {
@@ -269,8 +269,7 @@ pub fn patterns(
 }
 
 /// Figs. 3.15–3.17: the thesis's bodies through the regimes that it shows of them, prescribed; the same
-/// bodies sampled at the numbers that are computed for them; and the leaf in wind, sampled with the main
-/// regime that the thesis prints.
+/// bodies sampled at the numbers that are computed for them; and the leaf in wind, sampled so too.
 pub fn bodies(
     out: &Path,
     bodies: &[Body; 3],
@@ -331,7 +330,7 @@ pub fn bodies(
     for speed in [0.0, 3.0, 5.0] {
         let params = SynthesisParams {
             wind: speed,
-            ..SynthesisParams::of_case(&PhaseDiagram::THESIS_CASES[2])
+            ..SynthesisParams::default()
         };
         let synthesizer = leaf.synthesizer(params, database)?;
         let title = format!("eight leaves sampled, wind of {speed} m/s from the right (Fig. 3.17)");

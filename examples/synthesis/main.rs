@@ -1,5 +1,5 @@
-//! Falls put together from a motion graph: what chapter 3 of H. Xie's thesis shows (Figs. 3.4–3.6, 3.8,
-//! 3.15–3.18), recomputed, the last one with collisions.
+//! Falls put together from a motion graph: what chapter 3 of H. Xie's thesis shows (Figs. 3.4–3.6, 3.8–3.10,
+//! 3.13, 3.15–3.18), recomputed, the last one with collisions.
 //!
 //! ```text
 //! cargo run --release --features bake --example synthesis -- --out out
@@ -10,12 +10,19 @@
 //! * `synthesis_bodies.svg`: the thesis's coin, paper and leaf through the regimes that the thesis shows of
 //!   them, **prescribed**, then as **sampled** from the motion graph at the numbers that are computed for
 //!   them, and leaves in wind, sampled,
+//! * `synthesis_classes.svg`: the motion classes of this crate's own falls and of tracked ones,
+//! * `synthesis_chain.svg`: the states and probabilities of the Markov chain, for each main regime,
+//! * `synthesis_wind.svg`: how a trajectory is bent by the wind, step by step,
+//! * `synthesis_frames.svg`: the graph of frames beside that of regimes,
 //! * `synthesis_tree.svg`: leaves from a tree, sampled with the main regime that the thesis prints for its
 //!   leaf, with collisions.
 //!
 //! Printed: Re and I* of the three bodies as the thesis prints them and as they are computed, the regime
-//! that the phase diagram has for either, and what became of the tree's leaves.
+//! that the phase diagram has for either, and what became of the tree's leaves; with `--json` the numbers behind
+//! every figure. `--estimate` makes the file that the chain's probabilities, the deviations and the border of the
+//! spiral ship in.
 
+mod chain;
 #[path = "../support/draw.rs"]
 #[allow(dead_code, reason = "shared with other examples")]
 mod draw;
@@ -35,6 +42,9 @@ use serde_json::json;
 use std::path::PathBuf;
 use std::process::exit;
 use std::sync::Arc;
+
+/// Own falls whose motion classes are shown.
+const OBSERVED: u64 = 3000;
 
 /// Draws the figures of thesis chapter 3.
 #[derive(Parser)]
@@ -137,9 +147,7 @@ fn main() {
 
 fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     if let Some(path) = &arguments.estimate {
-        let tracked = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/paper/falls.csv");
-        let tracked = std::fs::read_to_string(tracked)
-            .map_err(|error| format!("cannot read {tracked}: {error}"))?;
+        let tracked = tracked_falls()?;
         let bar = support::cli::progress(arguments.falls, "falls of discs");
         let table = estimate::table(arguments.falls, &tracked, || bar.inc(1))?;
         bar.finish_and_clear();
@@ -165,47 +173,75 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let mut rows = Vec::new();
     for (body, case) in bodies.iter().zip(PhaseDiagram::THESIS_CASES) {
         let numbers = &body.numbers;
-        let [printed, computed] = [
-            (case.reynolds, case.i_star),
-            (numbers.reynolds_u0, numbers.i_star),
-        ];
-        let regime = |(re, i): (f64, f64)| diagram.regime(re, i).to_string();
+        let printed = diagram.regime(case.reynolds, case.i_star).to_string();
+        let computed = diagram.regime_of(numbers).to_string();
         if !arguments.json {
             println!(
-                "{}: U {:.3} m/s; printed Re {:.3e}, I* {:.2e} ({}; the thesis sees {}); computed Re {:.3e}, I* {:.2e} ({})",
+                "{}: printed Re {:.3e}, I* {:.2e} ({printed}; the thesis sees {}); computed Re {:.3e} by its (3.3), \
+                 U {:.3} m/s, and {:.3e} of the mean descent, I* {:.2e} ({computed})",
                 body.name,
-                numbers.u0,
-                printed.0,
-                printed.1,
-                regime(printed),
+                case.reynolds,
+                case.i_star,
                 case.regime,
-                computed.0,
-                computed.1,
-                regime(computed),
+                numbers.reynolds_u0,
+                numbers.u0,
+                numbers.reynolds(),
+                numbers.i_star,
             );
         }
         rows.push(json!({
             "body": body.name,
-            "descent_m_per_s": numbers.u0,
-            "printed": { "reynolds": printed.0, "i_star": printed.1, "regime": regime(printed) },
-            "computed": { "reynolds": computed.0, "i_star": computed.1, "regime": regime(computed) },
-            "thesis_regime": case.regime.to_string(),
+            "thesis": {
+                "reynolds": case.reynolds,
+                "i_star": case.i_star,
+                "regime": case.regime.to_string(),
+                "regime_by_the_diagram": printed,
+            },
+            "computed": {
+                "u0_m_per_s": numbers.u0,
+                "reynolds_u0": numbers.reynolds_u0,
+                "descent_m_per_s": numbers.broadside_descent(),
+                "reynolds": numbers.reynolds(),
+                "i_star": numbers.i_star,
+                "regime": computed,
+            },
         }));
     }
-    figures::database(&arguments.out, &database)?;
-    figures::patterns(&arguments.out, &bodies[2], &database, arguments.seed)?;
-    figures::bodies(&arguments.out, &bodies, &database, arguments.seed)?;
-    let report = tree::draw(
-        &arguments.out,
-        &bodies[2],
-        &database,
-        arguments.leaves,
-        arguments.seed,
-    )?;
+    let (out, seed) = (&arguments.out, arguments.seed);
+    figures::database(out, &database)?;
+    figures::patterns(out, &bodies[2], &database, seed)?;
+    figures::bodies(out, &bodies, &database, seed)?;
+    let bar = support::cli::progress(OBSERVED, "falls of discs");
+    let falls = estimate::falls(0, OBSERVED, || bar.inc(1))?;
+    bar.finish_and_clear();
+    let classes = chain::classes(out, &falls, &tracked_falls()?)?;
+    let chain = chain::chain(out)?;
+    let wind = chain::bent(out, &bodies[2], &database, seed)?;
+    let frames = chain::frames(out, &bodies[2], &database, seed)?;
+    let report = tree::draw(out, &bodies[2], &database, arguments.leaves, seed)?;
+    let all = json!({
+        "bodies": rows,
+        "classes": classes,
+        "chain": chain,
+        "wind": wind,
+        "frames": frames,
+        "tree": report,
+    });
     if arguments.json {
-        println!("{:#}", json!({ "bodies": rows, "tree": report }));
+        println!("{all:#}");
     } else {
-        println!("tree: {report}");
+        println!(
+            "classes: {} of {} own falls",
+            all["classes"]["own_classes"], OBSERVED
+        );
+        println!("frames: {frames}", frames = all["frames"]);
+        println!("tree: {}", all["tree"]);
     }
     Ok(())
+}
+
+/// The table of tracked falls.
+fn tracked_falls() -> Result<String, String> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/paper/falls.csv");
+    std::fs::read_to_string(path).map_err(|error| format!("cannot read {path}: {error}"))
 }

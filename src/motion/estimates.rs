@@ -78,7 +78,12 @@ impl FallEstimates {
         let columns = Self::HEADER.split(',').count();
         let header = lines.next().unwrap_or_default();
         let found = header.split(',').count() as f64;
-        Error::check("header of estimates", found, header == Self::HEADER, Self::HEADER)?;
+        Error::check(
+            "header of estimates",
+            found,
+            header == Self::HEADER,
+            Self::HEADER,
+        )?;
         let row = |line: &str| {
             let fields: Vec<&str> = line.split(',').collect();
             Error::check_length("columns of an estimate", columns, fields.len())?;
@@ -97,7 +102,8 @@ impl FallEstimates {
                 to: regime(fields[4])?,
                 value: number(fields[5])?,
                 error: Error::check_not_negative("error of an estimate", number(fields[6])?)?,
-                count: Error::check_not_negative("count of an estimate", number(fields[7])?)? as u64,
+                count: Error::check_not_negative("count of an estimate", number(fields[7])?)?
+                    as u64,
             })
         };
         let rows = lines.map(row).collect::<Result<_, Error>>()?;
@@ -202,7 +208,8 @@ mod tests {
 
     #[test]
     fn bad_tables_are_refused() {
-        let table = |row: &str| FallEstimates::from_csv(&format!("{}\n{row}\n", FallEstimates::HEADER));
+        let table =
+            |row: &str| FallEstimates::from_csv(&format!("{}\n{row}\n", FallEstimates::HEADER));
         assert!(table("start,own,PF,,SD,0.1,0.01,20").is_ok());
         assert!(table("start,own,XX,,SD,0.1,0.01,20").is_err());
         assert!(table("start,own,PF,,SD,nan,0.01,20").is_err());

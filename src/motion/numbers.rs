@@ -290,7 +290,11 @@ mod tests {
         let (numbers, tensor) = of(&hydro, &dry);
         assert_eq!(numbers.outline, Outline::Round);
         let closed = PI * ratio * t / (64.0 * d);
-        close(numbers.i_star, closed * (1.0 + 4.0 / 3.0 * (t / d) * (t / d)), 1e-5);
+        close(
+            numbers.i_star,
+            closed * (1.0 + 4.0 / 3.0 * (t / d) * (t / d)),
+            1e-5,
+        );
         close(tensor[(2, 2)], 2.0 * closed, 1e-5);
 
         // A thin ellipsoid: not the elliptic plate of the same mean thickness, 5/4 of it.
@@ -300,7 +304,11 @@ mod tests {
         let exact = PI * ratio * c * (b * b + c * c) / (120.0 * b.powi(3));
         close(numbers.i_star, exact, 1e-3);
         close(tensor[(0, 0)], exact * a / b, 1e-3);
-        close(tensor[(1, 1)] / tensor[(0, 0)], (a * a + c * c) / (b * b + c * c), 1e-6);
+        close(
+            tensor[(1, 1)] / tensor[(0, 0)],
+            (a * a + c * c) / (b * b + c * c),
+            1e-6,
+        );
 
         // A hexagon of apothem r. What Howison et al. (2020) list as its I* is 1.5 times that of (3.2): they
         // take the polar moment of inertia, and r for the circumradius (tests/data/paper/falls.csv has

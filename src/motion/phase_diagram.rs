@@ -84,7 +84,7 @@ pub struct PhaseDiagram {
     pub helix_reynolds: f64,
     /// I* below which it does so as a helix (default 7.9·10⁻³, a convention).
     pub helix_below: f64,
-    /// I* below which it is a spiral (default from own falls, 3.2·10⁻³).
+    /// I* below which it is a spiral (default from own falls, 4.34·10⁻³, with 4 % of them on the wrong side).
     pub spiral_below: f64,
 }
 

@@ -1,7 +1,7 @@
 //! The coin, the paper and the leaf of thesis § 3.6, with their own sizes: what their falls do, by
 //! positions and attitudes alone.
 
-use super::positions;
+use super::{ROUND, deviations, positions, round_numbers};
 use rapier3d_immersed::Fluid;
 use rapier3d_immersed::motion::path::{
     Deviation, HorizontalShape, MotionPath, SynthesisParams, Synthesizer, TrajectoryDatabase,
@@ -86,11 +86,11 @@ fn regular(body: &Body, regime: Regime) -> SynthesisParams {
         height: 100.0 * body.chord,
         interval: 0.01 * body.chord / body.descent(),
         variety: 0.0,
-        deviation: Deviation {
+        deviations: deviations(Deviation {
             width: 0.0,
-            ..Deviation::default()
-        },
-        ..SynthesisParams::default()
+            ..ROUND
+        }),
+        ..round_numbers()
     }
 }
 
@@ -183,6 +183,9 @@ fn computed_numbers_give_what_was_measured() {
         let close = |a: f64, b: f64| (a / b - 1.0).abs() < 0.01;
         assert!(close(numbers.reynolds_u0, reynolds), "{numbers:?}");
         assert!(close(numbers.i_star, i_star), "{numbers:?}");
+        // The diagram has the Reynolds number of the mean descent: of a broadside disc at C_D = 1.17.
+        let broadside = (2.0f64 / 1.17).sqrt() * numbers.reynolds_u0;
+        assert!(close(numbers.reynolds(), broadside), "{numbers:?}");
         let computed = body.synthesizer(SynthesisParams::default());
         assert_eq!(computed.main(), measured, "{}", body.name);
         assert_ne!(measured, case.regime, "{}", body.name);
@@ -202,9 +205,9 @@ fn turning_points(path: &MotionPath) -> Vec<usize> {
         .collect()
 }
 
-/// U, Ω = U/a and A_0 = k B (L/a) U/Ω (thesis (3.3), § 3.3.5) by hand, against the path: how fast it
-/// falls, how often a flutter turns back, and how wide and how fast a spiral goes round (with our factors:
-/// 2.5 as wide, three times as slow).
+/// U, Ω = U/a and A = .75 (L/a) U/Ω (thesis (3.3), § 3.3.5, its A_0 in units of our own) by hand, against the path: how fast it
+/// falls, how often a flutter turns back, and how wide and how fast a spiral goes round (three times as
+/// slowly, a convention).
 #[test]
 fn falls_have_the_scales_of_their_body() {
     for body in &BODIES {
@@ -237,7 +240,7 @@ fn falls_have_the_scales_of_their_body() {
         let drift = (end[count] - end[0]) / count as f64;
         let circle: Vec<_> = (0..count).map(|i| end[i] - drift * i as f64).collect();
         let radius = HorizontalShape::of(&circle).extent;
-        let amplitude = 2.5 * 0.3 * (body.length / chord) * chord;
+        let amplitude = 0.75 * (body.length / chord) * chord;
         // One turn is cut at a keyframe: a hundredth of U/a in 19.
         assert!(
             (radius / amplitude - 1.0).abs() < 0.01,

@@ -1,10 +1,9 @@
-//! Falls follow the Markov chain (thesis § 3.4), in wind too: what a path says of its regimes against the
-//! probabilities by hand. The thesis prints no number of the chain; whether leaves change their pattern with
-//! these probabilities is not tested.
+//! Falls follow the Markov chain (thesis § 3.4), in wind too: what a path says of its regimes against a chain
+//! by hand in round numbers.
 
 use super::{leaf, up_to};
+use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{MotionPath, SynthesisParams};
-use rapier3d_immersed::motion::{MotionGraph, Regime};
 
 type Row = [f64; 6];
 
@@ -142,10 +141,11 @@ fn shares_of_time_are_those_of_the_chain() {
             }
             occupied = next;
         }
+        let all = up_to(Regime::PeriodicSpiral, 2.0).graph.unwrap();
         let params = SynthesisParams {
             wind,
             variety: 0.0,
-            graph: MotionGraph::free_fall().restricted(&possible).unwrap(),
+            graph: Some(all.restricted(&possible).unwrap()),
             ..up_to(Regime::PeriodicSpiral, 2.0)
         };
         let (mut sums, mut squares) = ([0.0; 6], [0.0; 6]);

@@ -1,7 +1,7 @@
 //! Where falls land: normal about the asked mean with the asked deviation, along the heading and across
 //! it, in every pattern.
 
-use super::{leaf, positions, up_to};
+use super::{ROUND, deviations, leaf, positions, up_to};
 use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{Deviation, SynthesisParams};
 
@@ -67,20 +67,19 @@ fn the_test_can_fail() {
 /// 1 % level for a distribution that is known (Stephens, *J. Am. Stat. Assoc.* 69, 1974).
 const CRITICAL: f64 = 3.857;
 
-/// D = k B (L/a) h and the deviation k C (L/a) h/√2 (thesis (3.9)) by hand, of the documented k = 1, B = .3
-/// and C = .15; a steady fall drifts a tenth as far. The numbers are ours: that real falls land so is not
-/// tested.
+/// D = k B (L/a) h and the deviation k C (L/a) h/√2 (thesis (3.9)) by hand, of k = 1, B = .3
+/// and C = .15; a steady fall is asked to deviate a tenth as far.
 #[test]
 fn landings_are_normal_in_every_pattern() {
-    let deviation = Deviation {
+    let asked = deviations(Deviation {
         across: 0.08,
-        ..Deviation::default()
-    };
+        ..ROUND
+    });
     let distance = |per_height: f64| per_height * ASPECT * HEIGHT;
     for regime in Regime::ALL {
         let synthesizer = leaf(SynthesisParams {
             interval: 0.05,
-            deviation,
+            deviations: asked,
             ..up_to(regime, HEIGHT)
         });
         let share = match regime {
@@ -108,16 +107,16 @@ fn landings_are_normal_in_every_pattern() {
     }
 }
 
-/// By default falls that do not circle stay in a plane; with no width at all they land at one point.
+/// Without a width across falls that do not circle stay in a plane; with no width at all they land at one point.
 #[test]
 fn no_scatter_unless_asked() {
     for regime in Regime::ALL {
-        let deviation = Deviation {
+        let one_point = deviations(Deviation {
             width: 0.0,
-            ..Deviation::default()
-        };
+            ..ROUND
+        });
         let synthesizer = leaf(SynthesisParams {
-            deviation,
+            deviations: one_point,
             ..up_to(regime, HEIGHT)
         });
         let land = |seed| {

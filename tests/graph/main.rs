@@ -2,6 +2,8 @@
 
 mod bodies;
 mod chain;
+mod estimates;
+mod frames;
 mod kinematic;
 mod landing;
 mod players;
@@ -11,9 +13,9 @@ mod snapshot;
 
 use rapier3d_immersed::Fluid;
 use rapier3d_immersed::motion::path::{
-    HorizontalShape, MotionPath, SynthesisParams, Synthesizer, TrajectoryDatabase,
+    Deviation, HorizontalShape, MotionPath, SynthesisParams, Synthesizer, TrajectoryDatabase,
 };
-use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, Regime};
+use rapier3d_immersed::motion::{DimensionlessNumbers, MotionGraph, Outline, Regime};
 use rapier3d_immersed::rapier3d::na::Vector3;
 use std::collections::HashSet;
 
@@ -24,11 +26,60 @@ fn leaf(params: SynthesisParams) -> Synthesizer {
     Synthesizer::new(&numbers, 0.073, TrajectoryDatabase::shipped(), params).unwrap()
 }
 
+/// Parameters in round numbers, whatever the estimates are that the defaults have: a fall stays in a regime
+/// with ¾, each regime further on is half as likely as the one before it, and any start is as likely as any
+/// other; it lands (.3 ± .15/√2) of its height away, a steady one a tenth as far.
+fn round_numbers() -> SynthesisParams {
+    let row = |from: usize| -> Vec<f64> {
+        let ahead = |to: usize| match to > from {
+            true => 0.5f64.powi((to - from) as i32),
+            false => 0.0,
+        };
+        let sum: f64 = (0..6).map(ahead).sum();
+        let stay = if from == 5 { 1.0 } else { 0.75 };
+        let leave = |to: usize| {
+            if sum > 0.0 {
+                0.25 * ahead(to) / sum
+            } else {
+                0.0
+            }
+        };
+        (0..6)
+            .map(|to| if to == from { stay } else { leave(to) })
+            .collect()
+    };
+    let graph = MotionGraph::new(vec![1.0 / 6.0; 6], (0..6).map(row).collect());
+    SynthesisParams {
+        graph: Some(graph.unwrap()),
+        deviations: deviations(ROUND),
+        ..SynthesisParams::default()
+    }
+}
+
+/// B = .3 and C = .15.
+const ROUND: Deviation = Deviation {
+    coefficient: 1.0,
+    mean: 0.3,
+    width: 0.15,
+    across: 0.0,
+};
+
+/// The same deviation in every regime, but a tenth of it in steady descent.
+fn deviations(deviation: Deviation) -> [Deviation; 6] {
+    Regime::ALL.map(|regime| Deviation {
+        coefficient: match regime {
+            Regime::SteadyDescent => 0.1,
+            _ => 1.0,
+        },
+        ..deviation
+    })
+}
+
 fn up_to(main: Regime, height: f64) -> SynthesisParams {
     SynthesisParams {
         main: Some(main),
         height,
-        ..SynthesisParams::default()
+        ..round_numbers()
     }
 }
 

@@ -1,25 +1,24 @@
 //! How a fall begins, and how its swings vary: the release angle as the orientation of the feature
 //! vector V_0 (thesis § 3.3.5), and segments drawn from the K-means class of their feature vector.
 
-use super::{leaf, positions, up_to};
+use super::{ROUND, deviations, leaf, positions, up_to};
 use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{Deviation, MotionPath, SynthesisParams, TrajectoryDatabase};
 use rapier3d_immersed::rapier3d::math::Vector;
 use rapier3d_immersed::rapier3d::na::{Vector2, Vector3};
 use std::f64::consts::PI;
 
-/// Nearly no drift, and the swing that the default drift gives: what is left is the segments' own
+/// Nearly no drift: what is left is the segments' own
 /// motion.
 fn params(main: Regime, height: f64) -> SynthesisParams {
     SynthesisParams {
         interval: 1.0 / 960.0,
         variety: 0.0,
-        deviation: Deviation {
-            mean: 1e-3 * Deviation::default().mean,
+        deviations: deviations(Deviation {
+            mean: 3e-4,
             width: 0.0,
-            ..Deviation::default()
-        },
-        swing: 1e3 * SynthesisParams::default().swing,
+            ..ROUND
+        }),
         ..up_to(main, height)
     }
 }
@@ -124,8 +123,8 @@ fn swings(variety: f64, seed: u64) -> Vec<f64> {
 /// Spread over mean of the widths of the segments that swings to the left and to the right may be drawn
 /// from, by looking at all of the database: the share `variety` of the class, nearest by ratio of lengths.
 fn spread_of_segments(variety: f64) -> f64 {
-    // A regular glide: twice the amplitude across, 2.5 × .3 L, and half a period down, in chords.
-    let regular = Vector2::new(2.0 * 2.5 * 0.3 * 0.073 / 0.042, -PI);
+    // A regular glide: twice the amplitude across, .75 L, and half a period down, in chords.
+    let regular = Vector2::new(2.0 * 0.75 * 0.073 / 0.042, -PI);
     let database = TrajectoryDatabase::shipped();
     let (mut mean, mut square) = (0.0, 0.0);
     for sign in [-1.0, 1.0] {

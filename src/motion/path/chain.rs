@@ -127,7 +127,8 @@ mod tests {
             let line = lines.find(|line| line.starts_with(row)).unwrap();
             line.rsplit(',').next().unwrap().parse().unwrap()
         };
-        let [stay, leave] = ["TC,TC", "TC,PT"].map(|pair| count(&format!("transition,own,PT,{pair}")));
+        let [stay, leave] =
+            ["TC,TC", "TC,PT"].map(|pair| count(&format!("transition,own,PT,{pair}")));
         let graph = MotionGraph::free_fall(Regime::PeriodicTumbling);
         // A few go on to a spiral for a while.
         assert!((graph.probability(2, 3) / (leave / (stay + leave)) - 1.0).abs() < 0.01);
@@ -150,7 +151,13 @@ mod tests {
     #[test]
     fn calming_multiplies_odds() {
         // Everything further on can follow.
-        let ahead = |from: usize, to: usize| if to >= from { 1.0 / (6 - from) as f64 } else { 0.0 };
+        let ahead = |from: usize, to: usize| {
+            if to >= from {
+                1.0 / (6 - from) as f64
+            } else {
+                0.0
+            }
+        };
         let row = |from: usize| (0..6).map(|to| ahead(from, to)).collect();
         let graph = MotionGraph::new(row(0), (0..6).map(row).collect()).unwrap();
         let share = 0.3;

@@ -16,10 +16,10 @@ use rapier3d::na::{Quaternion, UnitQuaternion, Vector3};
 pub struct FrameGraphParams {
     /// Longer and shorter in-plane extent of the body, m, whose ends are compared.
     pub extents: [f64; 2],
-    /// Frames from each of the two on that are compared, and over which a splice is blended. Default 8.
+    /// Frames from each of the two on that are compared, and over which a splice is blended. Default 4.
     pub window: usize,
-    /// Root mean square distance of the compared points, m, up to which frames are alike. Default a quarter of
-    /// the shorter extent.
+    /// Root mean square distance of the compared points, m, up to which frames are alike. Default an eighth of
+    /// the shorter extent: with less, few splices are left between regimes, with more they jump further.
     pub threshold: f64,
     /// Time between draws of the next regime, s: half a period.
     pub segment: f64,
@@ -30,8 +30,8 @@ impl FrameGraphParams {
     pub fn new(extents: [f64; 2], segment: f64) -> Self {
         Self {
             extents,
-            window: 8,
-            threshold: 0.25 * extents[1],
+            window: 4,
+            threshold: 0.125 * extents[1],
             segment,
         }
     }
@@ -84,6 +84,10 @@ struct Node {
 /// and an end of each in-plane axis over a window of frames, the two windows are moved and turned about the
 /// vertical to lie best on each other, and a plate that is turned over is the same plate. Splices never lead
 /// to an earlier regime (the hypothesis of thesis § 3.4.1). Frames whose every walk ends are left out.
+///
+/// Beside the graph of regimes ([`Synthesizer`](super::Synthesizer)) its splices hide half as large a turn or less,
+/// but a velocity of half of the descent, where that graph, which splices at turning points, has no jump of the
+/// velocity between regimes in a plane: it remains the default.
 ///
 /// ```
 /// use rapier3d_immersed::Fluid;
@@ -256,7 +260,11 @@ impl FrameGraph {
                 for start in windows.len()..*end {
                     let whole = start + window <= *end;
                     windows.push(whole.then(|| {
-                        Window::of(&self.nodes[start..start + window], self.params.extents, flip)
+                        Window::of(
+                            &self.nodes[start..start + window],
+                            self.params.extents,
+                            flip,
+                        )
                     }));
                 }
             }
@@ -312,7 +320,14 @@ impl FrameGraph {
         }
     }
 
-    fn splice(&self, from: usize, to: usize, distance: f64, heading: f64, flip: usize) -> FrameSplice {
+    fn splice(
+        &self,
+        from: usize,
+        to: usize,
+        distance: f64,
+        heading: f64,
+        flip: usize,
+    ) -> FrameSplice {
         let [before, after] = [from, to].map(|node| &self.nodes[node].instant);
         let turn = about_vertical(heading);
         FrameSplice {
@@ -321,7 +336,9 @@ impl FrameGraph {
             distance,
             heading,
             velocity: (before.velocity - turn * after.velocity).norm(),
-            angle: before.attitude.angle_to(&(turn * after.attitude * half_turns()[flip])),
+            angle: before
+                .attitude
+                .angle_to(&(turn * after.attitude * half_turns()[flip])),
             flip,
         }
     }
@@ -348,7 +365,9 @@ impl FrameGraph {
     fn ways_on(&self, node: usize) -> impl Iterator<Item = &FrameSplice> {
         let splices = &self.splices[self.nodes[node].splices.clone()];
         // A window is longer than a frame, so that there is a next one.
-        splices.iter().filter(|splice| self.nodes[splice.to + 1].alive)
+        splices
+            .iter()
+            .filter(|splice| self.nodes[splice.to + 1].alive)
     }
 
     /// A walk: frame after frame from a release until it has fallen `height` m. Every half period the chain
@@ -496,7 +515,8 @@ mod tests {
             let t = 0.01 * i as f64;
             let phase = 10.0 * t + start;
             let roll = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.6 * phase.sin());
-            let lying = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), -0.5 * std::f64::consts::PI);
+            let lying =
+                UnitQuaternion::from_axis_angle(&Vector3::x_axis(), -0.5 * std::f64::consts::PI);
             Key {
                 position: to_real(turn * Vector3::new(0.05 * phase.sin(), -t, 0.0)),
                 velocity: to_real(turn * Vector3::new(0.5 * phase.cos(), -1.0, 0.0)),
@@ -513,39 +533,41 @@ mod tests {
         }
     }
 
-    /// The same swing, begun 0.21 s later and along another heading: every splice between the two leads to the
-    /// same phase, with the turn between the headings, and hides nothing. The plate has half turns, under
-    /// which half a period later in a mirrored swing looks alike; this one is not symmetric to the rest.
+    /// The same swing, begun 21 frames later and along another heading: the splices between the two lead to the
+    /// same phase, with the turn between the headings, and hide nothing; or half a period on, which under a half
+    /// turn about the vertical looks alike, and is no whole number of frames.
     #[test]
     fn splices_of_the_same_motion_hide_nothing() {
         let clips = [
             swinging(100, 0.0, 0.3, Regime::PeriodicFlutter),
             swinging(100, 2.1, 1.4, Regime::PeriodicTumbling),
         ];
-        let graph = FrameGraph::new(&clips, FrameGraphParams { threshold: 1e-5, ..params() });
-        // Forward only, so that without splices back every walk ends with the second clip; 2π/10 s is no
-        // whole number of frames, and splices within a clip are not as good.
-        assert!(graph.is_err());
+        // With these alone every walk ends with the second clip, as splices only lead forward.
+        let exact = FrameGraphParams {
+            threshold: 1e-5,
+            ..params()
+        };
+        assert!(FrameGraph::new(&clips, exact).is_err());
         let graph = FrameGraph::new(&clips, params()).unwrap();
-        let mut between = 0;
+        let mut same = 0;
         for splice in graph.splices() {
             assert!(splice.distance <= 2e-3);
             assert!(graph.regime(splice.to) >= graph.regime(splice.from));
-            if splice.from < 100 && splice.to >= 100 {
-                let shift = (splice.from as f64 - 21.0 - (splice.to as f64 - 100.0)) * 0.1;
-                let phase = (shift / std::f64::consts::TAU).fract().abs();
-                // Half a period later the same turned by half a turn about the vertical.
-                let off = (2.0 * phase).fract();
-                assert!(off.min(1.0 - off) < 0.02, "{splice:?} {phase}");
-                // Half a frame of a period is off by half a frame's motion.
-                assert!(splice.velocity < 0.03 && splice.angle < 0.04, "{splice:?}");
-                between += 1;
+            if splice.from >= 100 || splice.to < 100 {
+                continue;
             }
-            if splice.from < 100 && splice.to == splice.from + 79 && splice.to < 193 {
-                assert!((splice.heading.rem_euclid(std::f64::consts::PI) - (std::f64::consts::PI - 1.1)).abs() < 0.01);
+            let frames = splice.from as f64 - (splice.to as f64 - 100.0 + 21.0);
+            let half_periods = 0.1 * frames / std::f64::consts::PI;
+            let off = (half_periods - half_periods.round()).abs();
+            assert!(off < 0.1, "{splice:?}");
+            if frames == 0.0 {
+                assert!((splice.heading + 1.1).abs() < 1e-3, "{splice:?}");
+                // Angles of rotations in f32.
+                assert!(splice.velocity < 1e-3 && splice.angle < 2e-3, "{splice:?}");
+                same += 1;
             }
         }
-        assert!(between > 10, "{between}");
+        assert!(same > 10, "{same}");
         assert!(graph.frames_in_use() > 100 && graph.frames_in_use() < 200);
     }
 
@@ -562,7 +584,7 @@ mod tests {
             let jump = (pair[1].position - pair[0].position - mean * 0.01).length();
             // Acceleration's change over the interval: 0.05 · 10³ · 0.01³/12, and the blend's.
             assert!(jump < 1e-4, "{jump}");
-            assert!(pair[0].attitude.angle_between(pair[1].attitude) < 0.09);
+            assert!(pair[0].attitude.angle_between(pair[1].attitude) < 0.2);
         }
         assert_eq!(path, graph.walk(&chain, 10.0, 3).unwrap());
         assert_ne!(path, graph.walk(&chain, 10.0, 4).unwrap());
@@ -578,10 +600,22 @@ mod tests {
         let clip = swinging(50, 0.0, 0.0, Regime::PeriodicFlutter);
         let new = |params| FrameGraph::new(std::slice::from_ref(&clip), params).is_err();
         assert!(FrameGraph::new(&[], params()).is_err());
-        assert!(new(FrameGraphParams { window: 1, ..params() }));
-        assert!(new(FrameGraphParams { threshold: 0.0, ..params() }));
-        assert!(new(FrameGraphParams { segment: f64::NAN, ..params() }));
-        assert!(new(FrameGraphParams { extents: [0.1, -0.1], ..params() }));
+        assert!(new(FrameGraphParams {
+            window: 1,
+            ..params()
+        }));
+        assert!(new(FrameGraphParams {
+            threshold: 0.0,
+            ..params()
+        }));
+        assert!(new(FrameGraphParams {
+            segment: f64::NAN,
+            ..params()
+        }));
+        assert!(new(FrameGraphParams {
+            extents: [0.1, -0.1],
+            ..params()
+        }));
         let other = MotionPath::new(0.02, clip.keys().to_vec(), clip.regimes().to_vec()).unwrap();
         assert!(FrameGraph::new(&[clip.clone(), other], params()).is_err());
     }
