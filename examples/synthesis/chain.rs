@@ -150,7 +150,7 @@ fn chain_panel(main: Regime) -> Panel {
                 start.0 + 0.3 * (end.0 - start.0),
                 start.1 + 0.3 * (end.1 - start.1),
             );
-            let aside = (at.0 - 0.09 * dy, at.1 + 0.09 * dx);
+            let aside = (at.0 - 0.17 * dy, at.1 + 0.17 * dx);
             panel.items.push(Item::Label(aside, percent(p), INK));
         }
     }

@@ -336,7 +336,7 @@ pub fn bodies(
         let title = format!("eight leaves sampled, wind of {speed} m/s from the right (Fig. 3.17)");
         let mut panel = Panel::new(title, "x, m", "y, m");
         panel.window = Some([
-            [(-1.5, 1.5), (-6.5, 0.5), (-11.5, 0.5)][(speed / 2.0) as usize],
+            [(-3.5, 3.5), (-6.5, 0.5), (-11.5, 0.5)][(speed / 2.0) as usize],
             (-2.3, 0.1),
         ]);
         for fall in 0..8 {

@@ -63,9 +63,9 @@ const TUMBLING: [(f64, f64); 7] = [
 /// Field et al. (1997). Helix and spiral have no public numeric boundary: they lie in the periodic
 /// region above the Reynolds number where the flutter's amplitude stops growing (Zhong et al. 2013),
 /// in the order flutter, helix, spiral as I* falls (Zhong, Chen & Lee 2011). The I* of the spiral is
-/// where this crate's own discs begin to circle ([`FallEstimates`]); they do so from Re = 160 on, whatever
-/// was published. None of them stays in a helix: its I* is a convention, the geometric mean of the
-/// coin and the leaf that the thesis prints ([`PhaseDiagram::THESIS_CASES`]).
+/// where this crate's own discs begin to circle ([`FallEstimates`]); they do so at Reynolds numbers of
+/// some hundred too, whatever was published. Four of 12 000 stay in a helix: its I* is a convention, the
+/// geometric mean of the coin and the leaf that the thesis prints ([`PhaseDiagram::THESIS_CASES`]).
 ///
 /// ```
 /// use rapier3d_immersed::motion::{PhaseDiagram, Regime};
