@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 fn rms(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(s, n), v| (s + v * v, n + 1.0));
-    (sum / count as f64).sqrt()
+    (sum / count).sqrt()
 }
 
 /// Between regimes in a plane the graph of regimes has no jump of the velocity, which at turning points is that of
