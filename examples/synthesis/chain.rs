@@ -145,10 +145,11 @@ fn chain_panel(main: Regime) -> Panel {
                     .items
                     .push(Item::Line(vec![end, barb], tint, width.max(2)));
             }
-            // Off the middle, where lines cross.
+            // Off the middle, where lines cross, and not beside the label of the state before.
+            let share = if from == 1 { 0.15 } else { 0.3 };
             let at = (
-                start.0 + 0.3 * (end.0 - start.0),
-                start.1 + 0.3 * (end.1 - start.1),
+                start.0 + share * (end.0 - start.0),
+                start.1 + share * (end.1 - start.1),
             );
             let aside = (at.0 - 0.17 * dy, at.1 + 0.17 * dx);
             panel.items.push(Item::Label(aside, percent(p), INK));

@@ -48,7 +48,7 @@ pub struct SynthesisParams {
     pub wind: f64,
     /// Wind, in U, at which they are e times as unlikely; their probabilities fall as
     /// exp(−(wind/(this·U))²). Default 1.5. Form and number are ours, chosen so that the leaf of thesis
-    /// Fig. 3.17, which says no more than that, no longer tumbles at 3 m/s: what is tested is that falls
+    /// Fig. 3.17, which says no more than that, hardly tumbles any more at 3 m/s: what is tested is that falls
     /// do as they say, not that leaves do.
     pub calming_wind: f64,
     /// Time between keyframes at most, s. Default 1/120.
