@@ -2,97 +2,23 @@
 
 use crate::Failure;
 use crate::method::{Method, Prepared};
-use crate::mover::fly;
+use crate::mover::{apart, fly};
 use crate::subject::Start;
-use crate::support::Vec3;
+use crate::support::from_rapier;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
-use rapier3d_immersed::motion::{Classifier, Regime, Trajectory};
-use serde_json::{Value, json};
+use rapier3d_immersed::motion::Trajectory;
 
-/// Depths below the release between which a fall counts, m: the release is 1.1 m high, and the published analysis ends
-/// 5 cm above the floor.
-const WINDOW: [f64; 2] = [0.40, 1.05];
-/// Falls per method.
-const FALLS: u64 = 64;
+/// Falls per method that means are taken of.
+pub const FALLS: u64 = 64;
 const DT: f64 = 1.0 / 240.0;
 
-/// What falls do on average.
-#[derive(Clone, Debug, Default)]
-pub struct Means {
-    pub falls: usize,
-    /// Vertical and horizontal distance of the ends over the time, m/s.
-    pub descent: f64,
-    pub drift: f64,
-    /// Shares of the regimes, in the order of [`Regime::ALL`].
-    pub shares: [f64; 6],
-}
-
-impl Means {
-    pub fn json(&self) -> Value {
-        let shares = Regime::ALL.iter().zip(self.shares);
-        let shares = shares.map(|(regime, share)| (regime.abbreviation().into(), json!(share)));
-        json!({
-            "falls": self.falls,
-            "descent": self.descent,
-            "drift": self.drift,
-            "regimes": Value::Object(shares.collect()),
-        })
-    }
-
-    /// Relative errors of descent and drift, and the share of falls in another regime than the measured ones: half the
-    /// sum of the differences.
-    pub fn errors(&self, measured: &Self) -> [f64; 3] {
-        let pairs = self.shares.iter().zip(measured.shares);
-        [
-            self.descent / measured.descent - 1.0,
-            self.drift / measured.drift - 1.0,
-            0.5 * pairs.map(|(a, b)| (a - b).abs()).sum::<f64>(),
-        ]
-    }
-
-    /// The regimes that occur, the three most frequent first.
-    pub fn regimes(&self) -> String {
-        let mut all: Vec<_> = Regime::ALL.iter().zip(self.shares).collect();
-        all.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let some = all.iter().filter(|(_, share)| *share > 0.0);
-        let words = some
-            .take(3)
-            .map(|(regime, share)| format!("{} {:.0}", regime.abbreviation(), 100.0 * share));
-        words.collect::<Vec<_>>().join(", ")
-    }
-}
-
-/// What falls do between the two depths; those that never come there do not count.
-pub fn means(falls: &[Trajectory]) -> Means {
-    let mut means = Means::default();
-    for fall in falls {
-        let below = |depth: f64| fall.moments.iter().position(|m| m.position.y < -depth);
-        let (Some(from), Some(to)) = (below(WINDOW[0]), below(WINDOW[1])) else {
-            continue;
-        };
-        let moments = &fall.moments[from..=to];
-        let time = fall.interval * (to - from).max(1) as f64;
-        let way: Vec3 = moments[moments.len() - 1].position - moments[0].position;
-        means.falls += 1;
-        means.descent += -way.y / time;
-        means.drift += way.x.hypot(way.z) / time;
-        let regime = Classifier::default().observe(moments).regime;
-        means.shares[regime as usize] += 1.0;
-    }
-    let count = means.falls.max(1) as f64;
-    means.descent /= count;
-    means.drift /= count;
-    means.shares = means.shares.map(|share| share / count);
-    means
-}
-
-/// Falls of the paper, let go as by the robot.
-pub fn falls(prepared: &Prepared, method: Method) -> Result<Vec<Trajectory>, Failure> {
+/// So many falls of the paper, let go as by the robot.
+pub fn falls(prepared: &Prepared, method: Method, count: u64) -> Result<Vec<Trajectory>, Failure> {
     let mut random = Pcg64Mcg::seed_from_u64(3);
-    let starts: Vec<Start> = (0..FALLS)
+    let starts: Vec<Start> = (0..count)
         .map(|seed| Start {
-            place: crate::support::from_rapier(crate::mover::apart(seed as usize)),
+            place: from_rapier(apart(seed as usize)),
             release: prepared.subject.shaken(&mut random),
             seed,
         })

@@ -19,6 +19,7 @@
 mod control;
 mod cost;
 mod fidelity;
+mod means;
 mod measured;
 mod memory;
 mod method;
@@ -34,6 +35,7 @@ mod support;
 mod tracks;
 
 use clap::Parser;
+use means::Means;
 use method::{Method, Prepared};
 use rapier3d_immersed::motion::MotionGraph;
 use report::Row;
@@ -86,16 +88,12 @@ fn run(options: &Options) -> Result<(), Failure> {
     draw(options, &leaf, &paper)
 }
 
-fn measure(
-    leaf: &Prepared,
-    paper: &Prepared,
-    measured: &fidelity::Means,
-) -> Result<Vec<Row>, Failure> {
+fn measure(leaf: &Prepared, paper: &Prepared, measured: &Means) -> Result<Vec<Row>, Failure> {
     let bar = cli::progress(Method::ALL.len() as u64, "measured");
     let costs = cost::costs(leaf)?;
     let mut rows = Vec::new();
     for (method, cost) in Method::ALL.into_iter().zip(costs) {
-        let means = fidelity::means(&fidelity::falls(paper, method)?);
+        let means = Means::of(&fidelity::falls(paper, method, fidelity::FALLS)?);
         rows.push(Row {
             method,
             cost,

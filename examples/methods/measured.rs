@@ -1,7 +1,7 @@
 //! Measured falls of paper circles that were let go edge down.
 
 use crate::Failure;
-use crate::fidelity::Means;
+use crate::means::Means;
 use rapier3d_immersed::motion::{MotionGraph, Pattern, Regime};
 
 /// All segments of all measured falls; its neighbour README.md says what the columns are.

@@ -1,7 +1,7 @@
 //! All that was measured, as JSON and as tables; thesis Table 7.1 with a number in each cell.
 
 use crate::cost::Cost;
-use crate::fidelity::Means;
+use crate::means::Means;
 use crate::memory::Making;
 use crate::method::Method;
 use crate::stability::Stability;

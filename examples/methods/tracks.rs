@@ -114,7 +114,7 @@ pub fn films(paper: &Prepared) -> Result<(Vec<u8>, Vec<(&'static str, Vec<u8>)>)
     let measured = film(&scene, &one.aligned(height))?;
     let mut beside = vec![("repeat", film(&scene, &other.aligned(height))?)];
     for method in Method::ALL {
-        let fall = falls(paper, method)?.swap_remove(0);
+        let fall = falls(paper, method, 1)?.swap_remove(0);
         // Let go 1.1 m over the floor, as by the robot.
         let places = fall.moments.iter().map(|m| m.position + Vec3::y() * 1.1);
         let way = Way(places

@@ -1,5 +1,11 @@
 //! What the examples share is tested here, and the parts of the pond and the boat: examples themselves have no tests.
 
+#[path = "../../examples/methods/means.rs"]
+#[allow(dead_code, reason = "shared with the example")]
+mod means;
+#[path = "../../examples/methods/measured.rs"]
+#[allow(dead_code, reason = "shared with the example")]
+mod measured;
 #[path = "../../examples/pond/scene.rs"]
 #[allow(dead_code, reason = "shared with the example")]
 mod pond_scene;
@@ -24,8 +30,12 @@ mod boat;
 mod falls;
 mod leaves;
 mod meshes;
+mod methods;
 mod pages;
 mod pond;
 mod scoring;
 mod specimens;
 mod stochastic;
+
+/// As in the example `methods`.
+type Failure = Box<dyn std::error::Error + Send + Sync>;
