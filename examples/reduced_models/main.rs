@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! cargo run --release --example reduced_models -- --out out                             # a minute
-//! cargo run --release --example reduced_models -- --out out --only planar,plate,card    # four minutes
+//! cargo run --release --example reduced_models -- --out out --only planar,plate,card    # some five minutes
 //! ```
 //!
 //! The errors against the horizon are measured at 150 points off the grid of each of two domains, by up to five methods:
@@ -32,7 +32,7 @@ struct Arguments {
     /// Directory for the pictures.
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// Draw only these. All there are: linear, falling, coupled, kirchhoff, driven, and, of half a minute to two minutes each,
+    /// Draw only these. All there are: linear, falling, coupled, kirchhoff, driven, and, of half a minute to several each,
     /// planar, plate, card
     #[arg(
         long,
