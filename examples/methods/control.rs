@@ -1,8 +1,9 @@
 //! What can be asked for: a place to land, and a sequence of patterns.
 
 use crate::Failure;
-use crate::method::{Method, Prepared};
+use crate::method::Method;
 use crate::mover::{Mover, apart, empty, fly, player};
+use crate::prepared::Prepared;
 use crate::subject::{GRAVITY, Start};
 use crate::support::{Vec3, from_rapier, to_rapier};
 use rand::SeedableRng;

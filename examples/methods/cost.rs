@@ -2,8 +2,9 @@
 
 use crate::Failure;
 use crate::memory::held;
-use crate::method::{Method, Prepared};
+use crate::method::Method;
 use crate::mover::{Mover, apart, empty};
+use crate::prepared::Prepared;
 use crate::subject::Start;
 use crate::support::from_rapier;
 use crate::support::recording::{Stepper, median};
@@ -48,7 +49,7 @@ pub fn costs(prepared: &Prepared) -> Result<[Cost; 6], Failure> {
         *bytes = (held() - before) as f64 / BODIES as f64;
         worlds.push((scene, mover));
     }
-    let mut times = vec![Vec::with_capacity(STEPS); 6];
+    let mut times = vec![Vec::new(); 6];
     for _ in 0..STEPS {
         for ((scene, mover), times) in worlds.iter_mut().zip(&mut times) {
             let clock = Instant::now();

@@ -1,8 +1,9 @@
 //! Falls of paper by each method, beside the measured ones.
 
 use crate::Failure;
-use crate::method::{Method, Prepared};
+use crate::method::Method;
 use crate::mover::{apart, fly};
+use crate::prepared::Prepared;
 use crate::subject::Start;
 use crate::support::from_rapier;
 use rand::SeedableRng;

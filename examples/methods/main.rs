@@ -25,6 +25,7 @@ mod memory;
 mod method;
 mod mover;
 mod picture;
+mod prepared;
 mod reach;
 mod report;
 mod scoring;
@@ -32,11 +33,13 @@ mod stability;
 mod subject;
 #[path = "../support/mod.rs"]
 mod support;
+mod table;
 mod tracks;
 
 use clap::Parser;
 use means::Means;
-use method::{Method, Prepared};
+use method::Method;
+use prepared::Prepared;
 use rapier3d_immersed::motion::MotionGraph;
 use report::Row;
 use std::path::PathBuf;
@@ -82,7 +85,7 @@ fn run(options: &Options) -> Result<(), Failure> {
         if options.json {
             println!("{:#}", report::json(&rows, &measured));
         } else {
-            print!("{}", report::table(&rows, &measured));
+            print!("{}", table::table(&rows, &measured));
         }
     }
     draw(options, &leaf, &paper)
@@ -119,9 +122,10 @@ fn draw(options: &Options, leaf: &Prepared, paper: &Prepared) -> Result<(), Fail
     let films = picture::films(leaf)?;
     cli::write(&path("methods.html"), &films.page);
     cli::write(&path("methods.gif"), &films.gif);
-    let (measured, tracks) = tracks::films(paper)?;
+    let tracks = tracks::films(paper)?;
     let mut leaves = films.each;
     let judged: Vec<scoring::Film> = tracks
+        .beside
         .into_iter()
         .map(|(key, track)| {
             let own = leaves.iter().position(|(method, _)| method.key() == key);
@@ -136,6 +140,9 @@ fn draw(options: &Options, leaf: &Prepared, paper: &Prepared) -> Result<(), Fail
             }
         })
         .collect();
-    cli::write(&path("scoring.html"), scoring::page(&measured, &judged));
+    cli::write(
+        &path("scoring.html"),
+        scoring::page(&tracks.measured, &judged),
+    );
     Ok(())
 }

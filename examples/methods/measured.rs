@@ -33,7 +33,7 @@ fn segments() -> Result<Vec<Segment>, Failure> {
         let number = |name: &str| -> Result<f64, Failure> { Ok(field(name)?.parse()?) };
         let radius = number("radius_m")?;
         let taken = (field("shape")?, field("release")?) == ("circle", "edge");
-        if !taken || radius < RADII[0] || radius > RADII[1] {
+        if !taken || !(RADII[0]..=RADII[1]).contains(&radius) {
             continue;
         }
         segments.push(Segment {

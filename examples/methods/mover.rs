@@ -1,7 +1,8 @@
 //! Bodies that fall by one of the methods.
 
 use crate::Failure;
-use crate::method::{Method, Prepared};
+use crate::method::Method;
+use crate::prepared::Prepared;
 use crate::subject::Start;
 use crate::support::recording::{Recording, RunOptions, Stepper, run};
 use crate::support::scene::{Scene, pose_parts};

@@ -1,8 +1,9 @@
 //! The methods beside each other: stroboscopic pictures to one scale, and films.
 
 use crate::Failure;
-use crate::method::{Method, Prepared};
+use crate::method::Method;
 use crate::mover::{Mover, empty, fly};
+use crate::prepared::Prepared;
 use crate::subject::Start;
 use crate::support::picture::{Line, Panel, panels, time_color};
 use crate::support::recording::{Recording, RunOptions, run};

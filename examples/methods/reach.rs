@@ -1,8 +1,9 @@
 //! How far a method reaches: other shapes, and bodies that are joined.
 
 use crate::Failure;
-use crate::method::{Method, Prepared};
+use crate::method::Method;
 use crate::mover::{Mover, empty};
+use crate::prepared::Prepared;
 use crate::subject::{GRAVITY, Start, shapes};
 use crate::support::recording::Stepper;
 use crate::support::scene::pose_parts;

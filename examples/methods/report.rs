@@ -1,4 +1,4 @@
-//! All that was measured, as JSON and as tables; thesis Table 7.1 with a number in each cell.
+//! All that was measured, with a number for each cell of thesis Table 7.1; and all of it as JSON.
 
 use crate::cost::Cost;
 use crate::means::Means;
@@ -6,7 +6,6 @@ use crate::memory::Making;
 use crate::method::Method;
 use crate::stability::Stability;
 use serde_json::{Map, Value, json};
-use std::fmt::Write;
 
 /// Of one method.
 pub struct Row {
@@ -28,7 +27,7 @@ pub struct Row {
 }
 
 /// The criteria of thesis Table 7.1 in its order, each with what is measured for it.
-const CRITERIA: [(&str, &str); 7] = [
+pub const CRITERIA: [(&str, &str); 7] = [
     ("Adaptive geometries", "shapes that it takes"),
     ("Data-independence", "bytes held, made of so many samples"),
     (
@@ -51,7 +50,7 @@ const CRITERIA: [(&str, &str); 7] = [
 ];
 
 /// Number with a unit of bytes.
-fn bytes(count: f64) -> String {
+pub fn bytes(count: f64) -> String {
     match count {
         n if n.abs() < 1e3 => format!("{n:.0} B"),
         n if n.abs() < 1e6 => format!("{:.1} kB", 1e-3 * n),
@@ -60,7 +59,8 @@ fn bytes(count: f64) -> String {
 }
 
 impl Row {
-    fn cells(&self) -> [String; 7] {
+    /// A cell of Table 7.1 for each criterion.
+    pub fn cells(&self) -> [String; 7] {
         let [descent, drift, regimes] = self.errors.map(|error| 100.0 * error);
         let samples = self.making.samples;
         let shown = self
@@ -135,80 +135,4 @@ pub fn json(rows: &[Row], measured: &Means) -> Value {
         .map(|row| (row.method.key().into(), row.json()))
         .collect();
     json!({ "measured": measured.json(), "methods": methods })
-}
-
-/// The same to read.
-pub fn table(rows: &[Row], measured: &Means) -> String {
-    let mut text = String::new();
-    let say = |text: &mut String, line: String| {
-        writeln!(text, "{}", line.trim_end()).expect("a string takes anything");
-    };
-    let columns = |first: &str, cells: Vec<String>| {
-        let cells: Vec<String> = cells.iter().map(|cell| format!("{cell:>21}")).collect();
-        format!("{first:<22}{}", cells.concat())
-    };
-    let of = |cell: fn(&Row) -> String| rows.iter().map(cell).collect::<Vec<_>>();
-    say(&mut text, columns("", of(|r| r.method.name().into())));
-    say(
-        &mut text,
-        columns("step of a body, ns", of(|r| format!("{:.0}", r.cost.step))),
-    );
-    say(
-        &mut text,
-        columns("memory of a body", of(|r| bytes(r.cost.bytes))),
-    );
-    say(
-        &mut text,
-        columns(
-            "made once in, s",
-            of(|r| format!("{:.2}", r.making.seconds)),
-        ),
-    );
-    say(
-        &mut text,
-        columns(
-            "paper: descent, m/s",
-            of(|r| format!("{:.2}", r.means.descent)),
-        ),
-    );
-    say(
-        &mut text,
-        columns("       drift, m/s", of(|r| format!("{:.2}", r.means.drift))),
-    );
-    say(
-        &mut text,
-        columns("       regimes, %", of(|r| r.means.regimes())),
-    );
-    say(
-        &mut text,
-        format!(
-            "measured: {:.2} m/s, {:.2} m/s, {} (by eye, {} segments)",
-            measured.descent,
-            measured.drift,
-            measured.regimes(),
-            measured.falls,
-        ),
-    );
-    say(&mut text, String::new());
-    say(
-        &mut text,
-        "Thesis Table 7.1: its tick or dash, and what is measured".into(),
-    );
-    for (i, (name, what)) in CRITERIA.iter().enumerate() {
-        let cell = |row: &Row| {
-            let tick = row.method.thesis().map_or("", |ticks| ticks[i]);
-            format!("{} {}", tick, row.cells()[i])
-        };
-        say(&mut text, format!("{name}: {what}"));
-        say(&mut text, columns("", rows.iter().map(cell).collect()));
-    }
-    for row in rows {
-        for (shape, why) in &row.refused {
-            say(
-                &mut text,
-                format!("{} takes no {shape}: {why}", row.method.name()),
-            );
-        }
-    }
-    text
 }

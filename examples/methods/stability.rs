@@ -1,8 +1,9 @@
 //! A thousand wild falls with a coarse step: does anything blow up?
 
 use crate::Failure;
-use crate::method::{Method, Prepared};
+use crate::method::Method;
 use crate::mover::{Mover, apart, empty};
+use crate::prepared::Prepared;
 use crate::subject::{GRAVITY, Start};
 use crate::support::recording::Stepper;
 use crate::support::scene::pose_parts;

@@ -3,9 +3,10 @@
 
 use crate::Failure;
 use crate::fidelity::falls;
-use crate::method::{Method, Prepared};
+use crate::method::Method;
 use crate::mover::empty;
 use crate::picture::add_floor;
+use crate::prepared::Prepared;
 use crate::subject::RADIUS;
 use crate::support::recording::Recording;
 use crate::support::scene::{Kind, Scene};
@@ -105,8 +106,15 @@ fn film(scene: &Scene, way: &Way) -> Result<Vec<u8>, Failure> {
     Ok(gif::side_by_side(&[(scene, &recording)], &camera, RATE)?)
 }
 
-/// The measured fall, and what is shown beside it by key: its repeat, and the first fall by each method.
-pub fn films(paper: &Prepared) -> Result<(Vec<u8>, Vec<(&'static str, Vec<u8>)>), Failure> {
+/// Films as GIF.
+pub struct Tracks {
+    pub measured: Vec<u8>,
+    /// What is shown beside it by key: its repeat, and the first fall by each method.
+    pub beside: Vec<(&'static str, Vec<u8>)>,
+}
+
+/// All films of tracks.
+pub fn films(paper: &Prepared) -> Result<Tracks, Failure> {
     let scene = stage(paper)?;
     let [one, other] = MEASURED.map(Way::measured);
     let (one, other) = (one?, other?);
@@ -123,5 +131,5 @@ pub fn films(paper: &Prepared) -> Result<(Vec<u8>, Vec<(&'static str, Vec<u8>)>)
             .collect());
         beside.push((method.key(), film(&scene, &way.aligned(height))?));
     }
-    Ok((measured, beside))
+    Ok(Tracks { measured, beside })
 }
