@@ -258,6 +258,12 @@ pub enum Error {
         found: u64,
     },
 
+    /// What is to be played was planned for something else.
+    #[error("not what was planned for: {differences}")]
+    NotAsPlanned {
+        /// What differs, with both values where it is a number.
+        differences: String,
+    },
     /// The content of a file cannot be decoded, although its checksum is right.
     #[error("{file} file: its {length} bytes of content cannot be decoded")]
     UndecodableFile {

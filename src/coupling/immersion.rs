@@ -721,8 +721,7 @@ impl Immersion {
     }
 
     /// Lets a body replay a series from its beginning, at the next step; after its last entry that one
-    /// stays. The body must be under the law that the series was planned for
-    /// ([`Codebook::law`](crate::motion::Codebook)). A body that is held by a joint or has locked axes counts
+    /// stays. The body must be what the series was planned for: [`Immersion::replay_planned`] checks that. A body that is held by a joint or has locked axes counts
     /// as touching: under [`OnContact::Restart`] its series begins when it is free, under [`OnContact::Stop`]
     /// it ends at once. Unknown handles are ignored.
     pub fn replay(

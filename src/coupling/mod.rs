@@ -28,6 +28,7 @@ mod principal_mass;
 mod rapier_sets;
 mod readout;
 mod registry;
+mod replay_planned;
 mod saved_properties;
 mod shared_constants;
 #[cfg(feature = "serde-serialize")]

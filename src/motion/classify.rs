@@ -112,8 +112,13 @@ enum Event {
 impl Classifier {
     /// Classifies a fall after its transient.
     pub fn classify(&self, fall: &Trajectory) -> Observation {
+        self.observe(self.after_transient(fall))
+    }
+
+    /// The part of a fall that [`Classifier::classify`] looks at.
+    pub fn after_transient<'a>(&self, fall: &'a Trajectory) -> &'a [Moment] {
         let skipped = (fall.moments.len() as f64 * self.transient.clamp(0.0, 1.0)) as usize;
-        self.observe(&fall.moments[skipped.min(fall.moments.len())..])
+        &fall.moments[skipped.min(fall.moments.len())..]
     }
 
     /// Classifies all of a part of a fall, recorded at equal intervals.

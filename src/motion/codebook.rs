@@ -1,8 +1,9 @@
 //! Codebooks: series of control parameters that make a body fall in planned patterns.
 
 use super::pattern::Pattern;
+use super::planned_for::PlannedFor;
 use crate::error::Error;
-use crate::hydro::viscous::{ForceFactors, ViscousLaw};
+use crate::hydro::viscous::ForceFactors;
 use rand::{Rng, RngExt};
 
 /// A stretch of a series in which one pattern is meant to be seen.
@@ -153,18 +154,22 @@ impl ControlSeries {
 
 /// Series for one body, to be replayed at run time.
 ///
-/// [`Planner::codebook`](crate::training::Planner::codebook) fills one; a scene draws from it:
+/// [`Planner::codebook`](crate::training::Planner::codebook) fills one; a scene draws from it, and
+/// [`Immersion::replay_planned`](crate::Immersion::replay_planned) plays a series, if body, fluid, release and
+/// time step are those that it was planned for:
 ///
 /// ```
-/// use rapier3d_immersed::motion::{Codebook, ControlSeries, Dwell, Pattern};
-/// use rapier3d_immersed::{ForceFactors, ViscousLaw};
+/// use rapier3d_immersed::motion::{Codebook, ControlSeries, Dwell, Pattern, PlannedFor};
+/// use rapier3d_immersed::training::thin_ellipsoid;
+/// use rapier3d_immersed::{Fluid, ForceFactors};
 ///
 /// let series = |pattern| {
 ///     ControlSeries::new(0.5, vec![ForceFactors::ONE; 4], vec![Dwell { pattern, from: 0 }])
 /// };
+/// let (leaf, mass) = thin_ellipsoid([0.0365, 0.021, 0.00015], 400.0)?;
 /// let book = Codebook::new(
 ///     "leaf, 7.3 × 4.2 cm",
-///     ViscousLaw::default(),
+///     PlannedFor::new(leaf, mass, Fluid::AIR, 1.0 / 120.0),
 ///     vec![series(Pattern::Zigzag)?, series(Pattern::Autorotation)?],
 /// )?;
 /// assert_eq!(book.starting_with(Pattern::Zigzag).count(), 1);
@@ -179,8 +184,8 @@ impl ControlSeries {
 pub struct Codebook {
     /// Which body it is for, in the user's words.
     pub body: String,
-    /// The law that the series' factors belong to: immerse the body under it.
-    pub law: ViscousLaw,
+    /// What the series were planned for: the body under its law, the fluid, the release, the time step.
+    pub planned_for: PlannedFor,
     series: Vec<ControlSeries>,
 }
 
@@ -188,20 +193,20 @@ pub struct Codebook {
 const FILE: crate::file::FileKind = crate::file::FileKind {
     name: "codebook",
     magic: *b"R3DI-CBK",
-    version: 1,
+    version: 2,
 };
 
 impl Codebook {
     /// # Errors
-    /// [`Error::WrongLength`] if there is no series; those of [`ViscousLaw::check`].
+    /// [`Error::WrongLength`] if there is no series; those of [`PlannedFor::check`].
     pub fn new(
         body: impl Into<String>,
-        law: ViscousLaw,
+        planned_for: PlannedFor,
         series: Vec<ControlSeries>,
     ) -> Result<Self, Error> {
         let book = Self {
             body: body.into(),
-            law,
+            planned_for,
             series,
         };
         book.check()?;
@@ -209,7 +214,7 @@ impl Codebook {
     }
 
     fn check(&self) -> Result<(), Error> {
-        self.law.check()?;
+        self.planned_for.check()?;
         if self.series.is_empty() {
             return Err(Error::WrongLength {
                 what: "series of the codebook",
@@ -266,6 +271,14 @@ impl Codebook {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fluid::Fluid;
+
+    fn ball() -> PlannedFor {
+        let shape = rapier3d::geometry::SharedShape::ball(0.01);
+        let hydro = crate::hydro::HydroProperties::from_shape(shape.as_ref()).unwrap();
+        let mass = crate::body::DryMass::of_shape(shape.as_ref(), 400.0).unwrap();
+        PlannedFor::new(hydro, mass, Fluid::AIR, 1.0 / 120.0)
+    }
 
     fn series() -> ControlSeries {
         let dwell = |pattern, from| Dwell { pattern, from };
@@ -315,21 +328,22 @@ mod tests {
         assert!(make(0.1, controls.clone(), [1, 3]).is_err());
         assert!(make(0.1, controls.clone(), [0, 0]).is_err());
         assert!(make(0.1, controls, [0, 8]).is_err());
-        assert!(Codebook::new("leaf", ViscousLaw::default(), Vec::new()).is_err());
+        assert!(Codebook::new("leaf", ball(), Vec::new()).is_err());
     }
 
     #[cfg(feature = "serde-serialize")]
     #[test]
     fn what_is_saved_is_loaded() {
-        let book = Codebook::new("leaf", ViscousLaw::default(), vec![series(); 2]).unwrap();
+        let book = Codebook::new("leaf", ball(), vec![series(); 2]).unwrap();
         let bytes = book.to_bytes();
         assert_eq!(Codebook::from_bytes(&bytes).as_ref(), Ok(&book));
         assert_eq!(book.starting_with(Pattern::SteadyDescent).count(), 2);
         assert_eq!(book.with_sequence(&[Pattern::Zigzag]).count(), 0);
-        for length in 0..bytes.len() {
+        for length in (0..bytes.len()).step_by(5) {
             assert!(Codebook::from_bytes(&bytes[..length]).is_err());
         }
-        for at in 0..bytes.len() {
+        // Every byte of the header and of the end, and one in seven between.
+        for at in (0..bytes.len()).filter(|at| *at < 64 || at % 7 == 0 || at + 64 > bytes.len()) {
             let mut altered = bytes.clone();
             altered[at] ^= 0x10;
             assert!(Codebook::from_bytes(&altered).is_err(), "byte {at}");
@@ -340,6 +354,10 @@ mod tests {
         assert!(Codebook::from_bytes(&bad.to_bytes()).is_err());
         bad.series[0] = series();
         bad.series[1].dwells[1].from = 99;
+        assert!(Codebook::from_bytes(&bad.to_bytes()).is_err());
+        bad.series[1] = series();
+        assert!(Codebook::from_bytes(&bad.to_bytes()).is_ok());
+        bad.planned_for.mass.mass = -1.0;
         assert!(Codebook::from_bytes(&bad.to_bytes()).is_err());
     }
 }

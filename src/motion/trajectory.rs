@@ -1,4 +1,4 @@
-//! A recorded fall, and the thesis's two numbers of it.
+//! A recorded fall, and what it amounts to: the thesis's two numbers of its path, and two of how it turns.
 
 use rapier3d::na::{Matrix2, Vector2, Vector3};
 
@@ -103,6 +103,69 @@ impl Spread {
     }
 }
 
+/// How a body turns, in two numbers: what its path alone ([`Spread`]) does not tell.
+///
+/// ```
+/// use rapier3d_immersed::motion::{AttitudeSpread, Moment};
+/// use rapier3d_immersed::rapier3d::na::Vector3;
+///
+/// // A plate that swings by ±0.5 rad about z.
+/// let swing: Vec<Moment> = (0..=200)
+///     .map(|i| {
+///         let tilt = 0.5 * (std::f64::consts::TAU * 0.01 * f64::from(i)).sin();
+///         let normal = Vector3::new(tilt.sin(), tilt.cos(), 0.0);
+///         Moment { position: Vector3::zeros(), normal, long_axis: Vector3::z() }
+///     })
+///     .collect();
+/// let seen = AttitudeSpread::of(&swing);
+/// assert!(seen.coherence < 1e-9); // it turns back as often
+/// assert!(seen.tilt > 0.1);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(
+    feature = "serde-serialize",
+    derive(serde::Serialize, serde::Deserialize)
+)]
+pub struct AttitudeSpread {
+    /// Standard deviation of the tilt, the angle of the plate normal from the vertical whichever face is up,
+    /// rad.
+    pub tilt: f64,
+    /// |∫ω dt| / ∫|ω| dt with ω the angular velocity across the normal in the body's frame, ∈ [0, 1]: 1 where
+    /// the body turns on and on, near 0 where it swings back as far; 0 for one that does not turn.
+    pub coherence: f64,
+}
+
+impl AttitudeSpread {
+    /// Of a part of a fall, recorded at equal intervals in which the normal turns by less than half a turn.
+    pub fn of(moments: &[Moment]) -> Self {
+        let count = moments.len().max(1) as f64;
+        let tilts = || moments.iter().map(|m| m.normal.y.abs().min(1.0).acos());
+        let mean = tilts().sum::<f64>() / count;
+        let variance = tilts().map(|tilt| (tilt - mean).powi(2)).sum::<f64>() / count;
+        let (mut net, mut whole) = (Vector2::zeros(), 0.0);
+        for pair in moments.windows(2) {
+            let [before, now] = [&pair[0], &pair[1]];
+            let across = before.normal.cross(&now.normal);
+            let sine = across.norm();
+            if sine > 0.0 {
+                let angle = sine.atan2(before.normal.dot(&now.normal));
+                let turn = across * (angle / sine);
+                let third = before.normal.cross(&before.long_axis);
+                net += Vector2::new(turn.dot(&before.long_axis), turn.dot(&third));
+                whole += angle;
+            }
+        }
+        Self {
+            tilt: variance.sqrt(),
+            coherence: if whole > 0.0 {
+                (net.norm() / whole).min(1.0)
+            } else {
+                0.0
+            },
+        }
+    }
+}
+
 /// Eigenvalues of a symmetric 2×2 matrix, the larger first.
 pub(crate) fn principal_variances(m: &Matrix2<f64>) -> [f64; 2] {
     let mean = 0.5 * (m[(0, 0)] + m[(1, 1)]);
@@ -153,6 +216,38 @@ pub(crate) mod tests {
         assert_eq!((straight.distance, straight.eccentricity), (0.0, 0.0));
         let glide = path(0.01, 50, |t| Vector3::new(t, -t, 2.0 * t)).spread();
         assert!((glide.eccentricity - 1.0).abs() < 1e-12);
+    }
+
+    /// A tilt A sin ωt about a body axis has the standard deviation A √(½ − 4/π²) of its size |A sin ωt|, and
+    /// turns back as far as it turns; a steady rotation is coherent about either axis, and its tilt is
+    /// even over 0 … π/2: π/(2√12).
+    #[test]
+    fn how_a_body_turns() {
+        let turning = |angle: &dyn Fn(f64) -> f64, long: bool| {
+            let moment = |i: usize| {
+                let (sine, cosine) = angle(i as f64 / 1000.0).sin_cos();
+                let along = Vector3::new(cosine, -sine, 0.0);
+                Moment {
+                    position: Vector3::zeros(),
+                    normal: Vector3::new(sine, cosine, 0.0),
+                    long_axis: if long { Vector3::z() } else { along },
+                }
+            };
+            AttitudeSpread::of(&(0..4000).map(moment).collect::<Vec<_>>())
+        };
+        let swing = turning(&|t| 0.6 * (2.0 * PI * t).sin(), true);
+        let exact = 0.6 * (0.5 - 4.0 / (PI * PI)).sqrt();
+        assert!((swing.tilt - exact).abs() < 1e-4, "{swing:?}");
+        assert!(swing.coherence < 1e-3, "{swing:?}");
+        for long in [false, true] {
+            let tumble = turning(&|t| -2.0 * PI * t, long);
+            assert!((tumble.tilt - PI / 2.0 / 12f64.sqrt()).abs() < 1e-4);
+            assert!((tumble.coherence - 1.0).abs() < 1e-9, "{tumble:?}");
+        }
+        // Three quarters of the way on, one quarter back: half of it is left.
+        let uneven = turning(&|t| if t < 3.0 { t } else { 6.0 - t }, true);
+        assert!((uneven.coherence - 0.5).abs() < 2e-3, "{uneven:?}");
+        assert_eq!(AttitudeSpread::of(&[]), AttitudeSpread::default());
     }
 
     #[test]

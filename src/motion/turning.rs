@@ -1,5 +1,6 @@
 //! Turning points: maxima of a path's curvature, where patterns change (thesis § 5.5.3).
 
+use super::trajectory::{Moment, Trajectory};
 use rapier3d::na::Vector3;
 
 /// Finds turning points while a path grows, point by point at equal intervals.
@@ -71,6 +72,16 @@ impl TurnFinder {
     }
 }
 
+impl Trajectory {
+    /// Curvature of the path at each moment but the first and the last, 1/m: that of the circle through the point
+    /// and its two neighbours (thesis Fig. 5.12).
+    pub fn curvatures(&self) -> Vec<f64> {
+        let points = self.moments.windows(3);
+        let curvature = |m: &[Moment]| curvature(&m[0].position, &m[1].position, &m[2].position);
+        points.map(curvature).collect()
+    }
+}
+
 /// Curvature of the circle through three points, 1/m (Menger): four times the triangle's area over the
 /// product of its sides. It is zero for points that coincide.
 fn curvature(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>) -> f64 {
@@ -93,6 +104,10 @@ mod tests {
         let k = curvature(&at(0.1), &at(0.4), &at(0.45));
         assert!((k - 1.0 / 0.3).abs() < 1e-9);
         assert_eq!(curvature(&at(0.1), &at(0.1), &at(0.2)), 0.0);
+        let round = crate::motion::trajectory::tests::path(0.1, 20, at);
+        let curvatures = round.curvatures();
+        assert_eq!(curvatures.len(), 18);
+        assert!(curvatures.iter().all(|k| (k - 1.0 / 0.3).abs() < 1e-9));
     }
 
     /// A falling path that swings at 2 Hz turns twice per period, whatever the rate of points.

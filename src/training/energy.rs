@@ -7,6 +7,7 @@
 //! needed.
 
 use crate::dynamics::FreeBody;
+use crate::flow::FlowSample;
 use crate::hydro::viscous::ForceFactors;
 use crate::math::to_f64;
 use rapier3d::na::{Matrix2, Matrix3, Vector2, Vector3};
@@ -48,7 +49,8 @@ pub struct EnergyObjective {
 const TIE: f64 = 1e-6;
 
 impl EnergyObjective {
-    /// The objective at the state of `body` over the next `interval` seconds. As in the thesis the
+    /// The objective at the state of `body` over the next `interval` seconds, in a fluid that moves with `flow`;
+    /// velocities below are relative to it. As in the thesis the
     /// forces are those at the *intermediate* velocity X*, after the interval without viscous forces.
     ///
     /// `random` is three standard Gaussian numbers ξ; `kolmogorov` is C_k, `dissipation` ε (m²/s³) and
@@ -56,6 +58,7 @@ impl EnergyObjective {
     pub fn at(
         body: &FreeBody,
         gravity: Vector3<f64>,
+        flow: &FlowSample,
         interval: f64,
         random: Vector3<f64>,
         [kolmogorov, dissipation, frequency]: [f64; 3],
@@ -63,7 +66,10 @@ impl EnergyObjective {
         let previous = Vector3::from(<[f64; 3]>::from(body.control));
         let mut ahead = body.clone();
         ahead.control = [0.0; 3].into();
-        ahead.step(interval, gravity);
+        ahead.step_in(interval, gravity, flow);
+        let relative = ahead.linear_velocity() - to_f64(flow.velocity);
+        // Forces are those in a fluid at rest.
+        ahead.set_velocity(relative, ahead.angular_velocity());
         ahead.control = ForceFactors::default();
         let forces = ahead.forces(gravity);
         let gain = |force| to_f64(force) * (interval / body.mass());
@@ -76,7 +82,7 @@ impl EnergyObjective {
         let drift = 0.25 * (2.0 + 3.0 * kolmogorov) * frequency * interval;
         Self {
             gains,
-            target: random * diffusion - ahead.linear_velocity() * drift,
+            target: random * diffusion - relative * drift,
             previous,
             inertia: TIE * gains.norm_squared() / 3.0 + f64::MIN_POSITIVE,
         }

@@ -8,7 +8,7 @@ use crate::file::{FileKind, decode, encode};
 const SWEEP: FileKind = FileKind {
     name: "sweep",
     magic: *b"R3DI-SWP",
-    version: 1,
+    version: 2,
 };
 const SUBSPACES: FileKind = FileKind {
     name: "subspaces",
@@ -55,7 +55,7 @@ impl Subspaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::{Pattern, Regime};
+    use crate::motion::{AttitudeSpread, Pattern, Regime};
     use crate::training::{Grid, Sample};
     use std::ops::ControlFlow;
 
@@ -66,6 +66,8 @@ mod tests {
             Ok(Sample {
                 distance: point[0],
                 eccentricity: 0.25,
+                attitude: AttitudeSpread::default(),
+                flips: 0.0,
                 regime: Regime::TransitionalHelix,
                 simulated: true,
             })
@@ -88,6 +90,8 @@ mod tests {
                 Ok(Sample {
                     distance,
                     eccentricity,
+                    attitude: AttitudeSpread::default(),
+                    flips: 0.0,
                     regime: Regime::SteadyDescent,
                     simulated: true,
                 })

@@ -2,8 +2,8 @@
 //! § 5.4).
 //!
 //! In the order of use: an [`Experiment`] drops a body; a [`Sweep`] drops it at every node of a [`Grid`] of
-//! parameters and is refined where neighbours disagree; [`Subspaces`] answer which pattern a point belongs
-//! to, by the direct [`Classifier`](crate::motion::Classifier) or by [`Clusters`], the thesis's own
+//! parameters (the law's factors, or release, mass and wind as [`Parameter`]s) and is refined where neighbours
+//! disagree; [`Subspaces`] answer which pattern a point belongs to, by the direct [`Classifier`](crate::motion::Classifier) or by [`Clusters`], the thesis's own
 //! classification. A [`Planner`] makes series of force factors from them, which a body in rapier replays
 //! ([`Immersion::replay`](crate::Immersion::replay)). A [`Sketch`](crate::motion::Sketch) that is followed
 //! ([`Sketch::follow`](crate::motion::Sketch::follow)) needs an experiment only. Apart from these,
@@ -64,18 +64,20 @@ pub mod fidelity;
 mod file;
 mod grid;
 mod in_world;
+mod parameter;
 mod plan;
 mod planner;
 mod sketch_control;
 mod subspace;
 mod sweep;
 
-pub use cluster::Clusters;
+pub use cluster::{Clusters, Features};
 pub use energy::{ControlBox, EnergyObjective};
 pub use experiment::{Experiment, Release, thin_ellipsoid};
 pub use fall_statistics::FallStatistics;
 pub use grid::{Axis, Grid};
 pub use in_world::{BodyInWorld, BodyState};
+pub use parameter::Parameter;
 pub use plan::{DwellReport, Plan, PlannerParams};
 pub use planner::Planner;
 pub use sketch_control::{FollowParams, Followed};

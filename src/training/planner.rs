@@ -15,6 +15,11 @@
 //! is the planned one in 185 of 200 runs. Anchors that stay away from the subspace's boundary do worse (162 with those of the
 //! fewest foreign neighbours, 47 where that leaves a single one): what a dwell shows depends on what came before, and so
 //! choice is worth more than distance from the boundary.
+//!
+//! Another release, another distribution of the mass or a wind ([`Experiment::release`], [`Experiment::mass`],
+//! [`Experiment::wind`]) is planned for by giving it: a dwell counts if the pattern is seen under *those* conditions, so that
+//! subspaces which were trained for others still serve as a place to look for anchors. A plan holds for what it was made
+//! for, which a [`Codebook`] keeps with it.
 
 use super::energy::{ControlBox, EnergyObjective};
 use super::experiment::Experiment;
@@ -183,7 +188,7 @@ impl Planner {
         self.run(seed, |_| rest.next().copied())
     }
 
-    /// A codebook of plans, one per seed, under the experiment's law.
+    /// A codebook of plans, one per seed, for the experiment's body, fluid, release and time step.
     ///
     /// # Errors
     /// Those of [`Planner::plan`]; [`Error::WrongLength`] if there is no seed.
@@ -200,7 +205,7 @@ impl Planner {
         };
         #[cfg(not(feature = "bake"))]
         let series: Result<Vec<ControlSeries>, Error> = seeds.map(series).collect();
-        Codebook::new(body, self.experiment.body.law, series?)
+        Codebook::new(body, self.experiment.planned_for(), series?)
     }
 
     fn run(&self, seed: u64, mut next: impl FnMut(f64) -> Option<Pattern>) -> Result<Plan, Error> {
@@ -311,7 +316,6 @@ impl Planner {
         random: &mut Pcg64Mcg,
     ) -> Attempt {
         let params = &self.params;
-        let gravity = self.experiment.gravity_vector();
         let boxes = self.boxes(pattern, anchor);
         let mut falls = vec![Vec::new(); flight.bodies.len()];
         let (mut controls, mut objectives) = (Vec::new(), Vec::new());
@@ -336,7 +340,7 @@ impl Planner {
             let mut turn = false;
             for _ in 0..self.steps {
                 for (body, fall) in flight.bodies.iter_mut().zip(&mut falls) {
-                    body.step(self.experiment.dt, gravity);
+                    self.experiment.advance(body);
                     fall.push(Moment::of(body));
                 }
                 turn |= flight.turns.push(flight.bodies[0].position);
@@ -387,6 +391,7 @@ impl Planner {
         EnergyObjective::at(
             body,
             self.experiment.gravity_vector(),
+            &self.experiment.flow(),
             self.steps as f64 * self.experiment.dt,
             gaussian(random),
             turbulence,

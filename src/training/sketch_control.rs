@@ -20,6 +20,7 @@ use super::experiment::{Experiment, Release};
 use super::in_world::{BodyInWorld, BodyState};
 use crate::dynamics::FreeBody;
 use crate::error::Error;
+use crate::flow::{FlowSample, Uniform};
 use crate::hydro::viscous::ForceFactors;
 use crate::motion::{ControlSeries, DimensionlessNumbers, Sketch};
 use rand::SeedableRng;
@@ -202,6 +203,7 @@ impl Sketch {
         let search = Search {
             sketch: self,
             gravity: experiment.gravity_vector(),
+            flow: experiment.flow(),
             dt: experiment.dt,
             steps,
             params,
@@ -236,6 +238,10 @@ impl Sketch {
         let (dt, gravity) = (experiment.dt, experiment.gravity);
         let mut rapier = BodyInWorld::with_collider(body, collider, fluid, &state, dt, gravity)?;
         rapier.immersion.integrator = experiment.integrator;
+        if experiment.wind != Vector3::zeros() {
+            let velocity = search.flow.velocity;
+            rapier.immersion.set_flow(Uniform { velocity });
+        }
         let count = (self.duration() / (steps as f64 * experiment.dt)).ceil() as usize;
         let mut controls = Vec::with_capacity(count);
         let mut path = vec![self.points()[0].1];
@@ -252,7 +258,7 @@ impl Sketch {
             }
             trial.control = control.into();
             for _ in 0..steps {
-                trial.step(experiment.dt, search.gravity);
+                experiment.advance(&mut trial);
             }
             correct(&mut trial, &rapier.state());
             mean.rotate_left(1);
@@ -281,6 +287,7 @@ impl Sketch {
 struct Search<'a> {
     sketch: &'a Sketch,
     gravity: Vector3<f64>,
+    flow: FlowSample,
     dt: f64,
     steps: usize,
     params: &'a FollowParams,
@@ -295,7 +302,7 @@ impl Search<'_> {
         for control in controls {
             body.control = (*control).into();
             for _ in 0..self.steps {
-                body.step(self.dt, self.gravity);
+                body.step_in(self.dt, self.gravity, &self.flow);
                 now += self.dt;
                 cost += (body.position - self.sketch.at(now)).norm_squared();
             }

@@ -2,8 +2,9 @@
 
 use super::experiment::Experiment;
 use super::grid::Grid;
+use super::parameter::Parameter;
 use crate::error::Error;
-use crate::motion::{Classifier, Pattern, Regime, Spread, Trajectory};
+use crate::motion::{AttitudeSpread, Classifier, Pattern, Regime, Spread, Trajectory};
 use std::ops::ControlFlow;
 
 /// What one experiment showed.
@@ -17,6 +18,11 @@ pub struct Sample {
     pub distance: f64,
     /// e of the whole fall.
     pub eccentricity: f64,
+    /// How the body turns, after the classifier's transient.
+    pub attitude: AttitudeSpread,
+    /// The direct classifier's share of flips among flips and reversals
+    /// ([`Observation::tumbling`](crate::motion::Observation::tumbling)).
+    pub flips: f64,
     /// The direct classifier's verdict.
     pub regime: Regime,
     /// Whether it was simulated, not taken over from agreeing neighbours.
@@ -30,10 +36,13 @@ impl Sample {
             distance,
             eccentricity,
         } = fall.spread();
+        let seen = classifier.classify(fall);
         Self {
             distance,
             eccentricity,
-            regime: classifier.classify(fall).regime,
+            attitude: AttitudeSpread::of(classifier.after_transient(fall)),
+            flips: seen.tumbling(),
+            regime: seen.regime,
             simulated: true,
         }
     }
@@ -166,6 +175,53 @@ impl Sweep {
         self.run(drop, progress)
     }
 
+    /// Computes what is missing by dropping the body of `experiment` with each axis of the grid as one parameter of
+    /// it (thesis § 5.7: release, distribution of the mass, wind).
+    ///
+    /// ```
+    /// use rapier3d_immersed::motion::Classifier;
+    /// use rapier3d_immersed::training::{Axis, Experiment, Grid, Parameter, Sweep};
+    /// use rapier3d_immersed::{ThesisLaw, ViscousLaw};
+    /// use std::ops::ControlFlow;
+    ///
+    /// let mut leaf = Experiment::thesis_leaf(ThesisLaw::default())?;
+    /// leaf.body.law = ViscousLaw::default();
+    /// leaf.seconds = 1.0;
+    /// let tilt = Axis { low: 0.1, high: 1.2, count: 3 };
+    /// let ballast = Axis { low: 0.0, high: 0.01, count: 2 };
+    /// let mut sweep = Sweep::new(Grid::new(vec![tilt, ballast])?);
+    /// let parameters = [Parameter::Tilt, Parameter::CenterOfMass(0)];
+    /// let go_on = |_, _| ControlFlow::Continue(());
+    /// sweep.run_parameters(&leaf, &parameters, &Classifier::default(), go_on)?;
+    /// assert_eq!(sweep.remaining(), 0);
+    /// # Ok::<(), rapier3d_immersed::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`] if there is not one parameter per axis; those of [`Parameter::set`] and
+    /// [`Experiment::released`].
+    pub fn run_parameters(
+        &mut self,
+        experiment: &Experiment,
+        parameters: &[Parameter],
+        classifier: &Classifier,
+        progress: impl FnMut(usize, usize) -> ControlFlow<()>,
+    ) -> Result<(), Error> {
+        let axes = self.grid.axes().len();
+        Error::check_length("parameters of the grid", axes, parameters.len())?;
+        let drop = |point: &[f64]| {
+            let mut experiment = experiment.clone();
+            let mut control = [1.0; 3];
+            for (parameter, value) in parameters.iter().zip(point) {
+                parameter.set(*value, &mut experiment, &mut control)?;
+            }
+            let mut body = experiment.released()?;
+            body.control = control.into();
+            Ok(Sample::of(&experiment.fall(body), classifier))
+        };
+        self.run(drop, progress)
+    }
+
     /// The sweep over a grid twice as fine in which only nodes between **disagreeing** neighbours are
     /// missing (thesis § 5.4.3): `label` tells what a sample is. The number of experiments then grows
     /// like the area of the boundaries between patterns, not like the volume.
@@ -220,6 +276,9 @@ impl Sweep {
         for sample in self.samples.iter().flatten() {
             Error::check_not_negative("distance", sample.distance)?;
             Error::check_range("eccentricity", sample.eccentricity, 0.0, 1.0)?;
+            Error::check_not_negative("tilt", sample.attitude.tilt)?;
+            Error::check_range("coherence", sample.attitude.coherence, 0.0, 1.0)?;
+            Error::check_range("flips", sample.flips, 0.0, 1.0)?;
         }
         Ok(())
     }
@@ -237,6 +296,8 @@ mod tests {
         Ok(Sample {
             distance: point[0].abs(),
             eccentricity: 0.5,
+            attitude: AttitudeSpread::default(),
+            flips: 0.0,
             regime: if inside {
                 Regime::PeriodicFlutter
             } else {
