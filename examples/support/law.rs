@@ -26,9 +26,11 @@ pub enum LawName {
 pub fn law(name: LawName, coefficients: Option<&str>) -> Result<ViscousLaw, String> {
     match name {
         LawName::Default => physical(coefficients.unwrap_or("")).map(ViscousLaw::Physical),
-        LawName::Thesis => thesis(coefficients).map(|c| ViscousLaw::Thesis(ThesisLaw::new(c))),
+        LawName::Thesis => {
+            thesis(coefficients, DAMPED).map(|c| ViscousLaw::Thesis(ThesisLaw::new(c)))
+        }
         LawName::ThesisPrinted => {
-            thesis(coefficients).map(|c| ViscousLaw::Thesis(ThesisLaw::printed(c)))
+            thesis(coefficients, PRINTED).map(|c| ViscousLaw::Thesis(ThesisLaw::printed(c)))
         }
         LawName::Stochastic => stochastic(coefficients).map(ViscousLaw::Stochastic),
         LawName::Inviscid if coefficients.is_some() => {
@@ -43,16 +45,26 @@ fn numbers(text: &str) -> Result<Vec<f64>, String> {
     text.split(',').map(number).collect()
 }
 
-fn thesis(coefficients: Option<&str>) -> Result<[f64; 3], String> {
-    let Some(text) = coefficients else {
-        return Ok(ThesisLaw::ZIGZAG);
-    };
-    match text.trim().to_ascii_lowercase().as_str() {
-        "sd" => return Ok(ThesisLaw::STEADY_DESCENT),
-        "zz" => return Ok(ThesisLaw::ZIGZAG),
-        "az" => return Ok(ThesisLaw::AUTOROTATION_ZIGZAG),
-        "ar" => return Ok(ThesisLaw::AUTOROTATION),
-        _ => {}
+/// Coefficients of steady descent, zigzag, autorotation with zigzag and autorotation under the law as printed …
+const PRINTED: [[f64; 3]; 4] = [
+    ThesisLaw::STEADY_DESCENT,
+    ThesisLaw::ZIGZAG,
+    ThesisLaw::AUTOROTATION_ZIGZAG,
+    ThesisLaw::AUTOROTATION,
+];
+/// … and under the damped one.
+const DAMPED: [[f64; 3]; 4] = [
+    ThesisLaw::DAMPED_STEADY_DESCENT,
+    ThesisLaw::DAMPED_ZIGZAG,
+    ThesisLaw::DAMPED_AUTOROTATION_ZIGZAG,
+    ThesisLaw::DAMPED_AUTOROTATION,
+];
+
+fn thesis(coefficients: Option<&str>, presets: [[f64; 3]; 4]) -> Result<[f64; 3], String> {
+    let text = coefficients.unwrap_or("zz");
+    let name = text.trim().to_ascii_lowercase();
+    if let Some(known) = ["sd", "zz", "az", "ar"].iter().position(|n| *n == name) {
+        return Ok(presets[known]);
     }
     match numbers(text)?[..] {
         [a, b, c] => Ok([a, b, c]),

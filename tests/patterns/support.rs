@@ -1,5 +1,6 @@
 //! A leaf that is trained once, planned with, and played back in rapier.
 
+use rapier3d_immersed::flow::Uniform;
 use rapier3d_immersed::motion::{Classifier, ControlSeries, Moment, MotionGraph, Trajectory};
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::*;
@@ -61,21 +62,43 @@ impl Leaf {
 
     /// Plays every series with a leaf of its own, far from the others, in one rapier world.
     pub fn play(&self, series: &[&ControlSeries]) -> Vec<Trajectory> {
-        self.play_from(&self.experiment.release, series)
+        self.play_under(&self.experiment, series)
     }
 
     /// The same from another release.
     pub fn play_from(&self, release: &Release, series: &[&ControlSeries]) -> Vec<Trajectory> {
+        let experiment = Experiment {
+            release: *release,
+            ..self.experiment.clone()
+        };
+        self.play_under(&experiment, series)
+    }
+
+    /// The same under the release, the wind and the center of mass of `experiment`.
+    pub fn play_under(
+        &self,
+        experiment: &Experiment,
+        series: &[&ControlSeries],
+    ) -> Vec<Trajectory> {
+        let release = &experiment.release;
+        let mut collider = collider();
+        if experiment.mass != self.experiment.mass {
+            collider = collider.mass_properties(experiment.mass.to_mass_properties());
+        }
         let mut world = PhysicsWorld::new();
         world.integration_parameters.dt = self.experiment.dt as f32;
         let mut immersion = Immersion::new(Fluid::AIR);
+        if experiment.wind != Vector3::zeros() {
+            let [x, y, z] = experiment.wind.map(|v| v as f32).into();
+            immersion.set_flow(Uniform::new(x, y, z));
+        }
         let origin = |i: usize| Vector::new(0.0, 0.0, 50.0 * i as f32);
         let handles: Vec<RigidBodyHandle> = series
             .iter()
             .enumerate()
             .map(|(i, series)| {
                 let body = self.released(release).translation(origin(i));
-                let (handle, _) = world.insert(body, collider());
+                let (handle, _) = world.insert(body, collider.clone());
                 immersion.insert(handle, self.experiment.body.clone());
                 immersion.replay(handle, series, OnContact::Restart);
                 handle
