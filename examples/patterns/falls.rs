@@ -1,11 +1,12 @@
-//! Falls in pictures: thesis Figs. 5.5, 5.6, 5.13, 5.14, 5.15 and 5.16.
+//! Falls in pictures: thesis Figs. 5.5, 5.13, 5.14, 5.15 and 5.16.
 
 use crate::Context;
 use crate::draw::{Item, Panel, Point, color, isometric};
 use plotters::style::RGBColor;
 use rapier3d_immersed::flow::FlowSample;
 use rapier3d_immersed::motion::{
-    Classifier, DimensionlessNumbers, Moment, MotionGraph, Pattern, Sketch, Trajectory,
+    Classifier, DimensionlessNumbers, HelixFit, Moment, MotionGraph, Pattern, Regime, Sketch,
+    Trajectory,
 };
 use rapier3d_immersed::rapier3d::na::Vector3;
 use rapier3d_immersed::rapier3d::prelude::{ColliderBuilder, MassProperties, Vector};
@@ -16,11 +17,11 @@ use rapier3d_immersed::training::{
 use rapier3d_immersed::turbulence::{
     NoiseStream, SeenFluctuation, TurbulenceState, kolmogorov_constant,
 };
-use rapier3d_immersed::{Error, Fluid, ImmersedBody, StochasticLaw, ThesisLaw, ViscousLaw};
+use rapier3d_immersed::{Error, Fluid, ImmersedBody, StochasticLaw, ViscousLaw};
 use serde_json::{Value, json};
 
-const GREY: RGBColor = RGBColor(120, 120, 120);
-const BLUE: RGBColor = RGBColor(30, 90, 200);
+pub const GREY: RGBColor = RGBColor(120, 120, 120);
+pub const BLUE: RGBColor = RGBColor(30, 90, 200);
 
 /// Positions in cm.
 fn centimeters(fall: &Trajectory) -> impl Iterator<Item = [f64; 3]> + '_ {
@@ -28,7 +29,7 @@ fn centimeters(fall: &Trajectory) -> impl Iterator<Item = [f64; 3]> + '_ {
 }
 
 /// Seen along z, with strokes across the plate.
-fn side(fall: &Trajectory, chord: f64, every: usize, color: RGBColor) -> Vec<Item> {
+pub fn side(fall: &Trajectory, chord: f64, every: usize, color: RGBColor) -> Vec<Item> {
     let path = centimeters(fall).map(|[x, y, _]| (x, y)).collect();
     let mut items = vec![Item::Line(path, color, 1)];
     for moment in fall.moments.iter().step_by(every) {
@@ -56,57 +57,54 @@ fn from_above(fall: &Trajectory, color: RGBColor) -> Vec<Item> {
     ]
 }
 
-/// Fig. 5.6: the four patterns of the card, from rest, under the law as printed.
-pub fn four_patterns(context: &Context) -> Result<Value, Error> {
-    let mut panels = Vec::new();
-    let mut rows = Vec::new();
-    for (pattern, coefficients) in [
-        (Pattern::SteadyDescent, ThesisLaw::STEADY_DESCENT),
-        (Pattern::AutorotationZigzag, ThesisLaw::AUTOROTATION_ZIGZAG),
-        (Pattern::Zigzag, ThesisLaw::ZIGZAG),
-        (Pattern::Autorotation, ThesisLaw::AUTOROTATION),
-    ] {
-        // Exactly about the short axis, where the printed numbers were met.
-        let mut experiment = Experiment::thesis_card(ThesisLaw::printed(coefficients))?;
-        experiment.release.tilt_axis = 0.0;
-        experiment.dt = 1e-3;
-        let fall = experiment.run()?;
-        let spread = fall.spread();
-        let seen = Classifier::default().classify(&fall).regime;
-        let d = 100.0 * spread.distance;
-        let title = format!("{pattern}: d = {d:.2} cm, seen as {seen}");
-        let mut panel = Panel::new(title, "x, cm", "y, cm");
-        panel.items = side(&fall, 0.07, 60, color(pattern));
-        panels.push(panel);
-        rows.push(json!({ "pattern": pattern.abbreviation(), "d_cm": d,
-            "e": spread.eccentricity, "direct": seen.abbreviation() }));
-    }
-    let title =
-        "The card of Fig. 5.6 under the law as printed, from rest, 10°, 3 s (scales differ)";
-    context.write("fig_5_6_patterns.svg", title, &panels, 4, (330, 520));
-    Ok(json!(rows))
-}
-
 /// Fig. 5.5: the card that autorotates along a helix. The thesis prints a = 2.5, b = 1.5 and c = 0.01 cm;
-/// a and b are read as semi-axes here, although its Table 5.2 lists whole axes for other bodies. The thesis prints a = 2.5, b = 1.5 and c = 0.01 cm;
-/// a and b are read as semi-axes here, although its Table 5.2 lists whole axes for other bodies.
+/// they are read as semi-axes here, although its Table 5.2 lists whole axes for other bodies.
 pub fn helix(context: &Context) -> Result<Value, Error> {
-    let (hydro, mass) = thin_ellipsoid([0.025, 0.015, 0.000_05], 1200.0)?;
+    let (hydro, mass) = thin_ellipsoid([0.025, 0.015, 0.000_1], 1200.0)?;
     let mut experiment = Experiment::new(hydro, mass, Fluid::AIR);
-    experiment.release.tilt = 45f64.to_radians();
-    experiment.release.tilt_axis = 86f64.to_radians();
-    experiment.seconds = 12.0;
-    let fall = experiment.run()?;
-    let seen = Classifier::default().classify(&fall);
+    experiment.seconds = 6.0;
+    let classifier = Classifier::default();
+    let drop = |tilt: f64, tilt_axis: f64| {
+        let mut experiment = experiment.clone();
+        experiment.release.tilt = tilt.to_radians();
+        experiment.release.tilt_axis = tilt_axis.to_radians();
+        experiment.run()
+    };
+    let fit = |fall: &Trajectory| HelixFit::of(classifier.after_transient(fall));
+    let fall = drop(45.0, 3.0)?;
+    // How often it does so: most releases lead to autorotation along a path that bends now this way, now that.
+    let (mut tumbling, mut helices, mut releases) = (0, 0, 0);
+    for tilt in [43.0, 44.0, 45.0, 46.0, 47.0] {
+        for tilt_axis in [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.0] {
+            let other = drop(tilt, tilt_axis)?;
+            releases += 1;
+            tumbling += u32::from(classifier.classify(&other).regime == Regime::PeriodicTumbling);
+            helices += u32::from(fit(&other).is_some_and(|fit| fit.is_helix()));
+        }
+    }
+    let seen = classifier.classify(&fall);
+    let found = fit(&fall);
     let mut space = Panel::bare("in space");
     space
         .items
         .push(in_space(&fall, color(Pattern::Autorotation), 1));
     let mut above = Panel::new("from above", "x, cm", "z, cm").equal();
     above.items = from_above(&fall, color(Pattern::Autorotation));
-    let title = "Fig. 5.5: card of 5 × 3 × 0.01 cm, 1200 kg/m³, released at 45°, default law, 12 s";
+    let title = "Fig. 5.5: card of semi-axes 2.5 × 1.5 × 0.01 cm, 1200 kg/m³, released at 45°, default law, 6 s";
     context.write("fig_5_5_helix.svg", title, &[space, above], 2, (470, 620));
-    Ok(json!({ "regime": seen.regime.abbreviation(), "half_turns": seen.flips }))
+    Ok(json!({
+        "regime": seen.regime.abbreviation(),
+        "half_turns": seen.flips,
+        "radius_cm": found.map(|f| 100.0 * f.radius),
+        "pitch_cm": found.map(|f| 100.0 * f.pitch),
+        "turns": found.map(|f| f.turns),
+        "residual_of_radius": found.map(|f| f.residual),
+        "azimuth_per_half_turn_degrees": found.map(|f| f.azimuth_per_half_turn.to_degrees()),
+        "helix": found.is_some_and(|f| f.is_helix()),
+        "releases": releases,
+        "releases_tumbling": tumbling,
+        "releases_helix": helices,
+    }))
 }
 
 /// Fig. 5.13: a card of 4 × 2 × 0.04 cm released at 30°, effects switched on one by one.
@@ -142,7 +140,7 @@ pub fn effects(context: &Context, seed: u64) -> Result<Value, Error> {
         falls.push((*name, experiment.run()?));
     }
     let gusty = in_turbulence(&cases[4].1, &numbers, seed)?;
-    falls.push(("(f) … and turbulence", gusty));
+    falls.push(("(f) (e) in turbulence of 30 %", gusty));
     let mut panels = Vec::new();
     let mut rows = Vec::new();
     for (name, fall) in &falls {
@@ -152,7 +150,19 @@ pub fn effects(context: &Context, seed: u64) -> Result<Value, Error> {
         panel.items = side(&turned, 0.02, 6, BLUE);
         panels.push(panel);
         let end = fall.moments[fall.moments.len() - 1].position;
-        rows.push(json!({ "case": name, "end": [end.x, end.y, end.z] }));
+        let rise = fall
+            .moments
+            .windows(2)
+            .map(|m| m[1].position.y - m[0].position.y);
+        let (rise, _) = rise.fold((0.0f64, 0.0f64), |(most, now), step| {
+            let now = (now + step).max(0.0);
+            (most.max(now), now)
+        });
+        rows.push(json!({
+            "case": name,
+            "end_cm": [100.0 * end.x, 100.0 * end.y, 100.0 * end.z],
+            "largest_rise_mm": 1e3 * rise,
+        }));
     }
     let title = "Fig. 5.13: effects switched on one by one; card of 4 × 2 × 0.04 cm, 30°, 1.2 s (scales differ)";
     context.write("fig_5_13_effects.svg", title, &panels, 6, (250, 560));
@@ -231,7 +241,7 @@ fn stretches(plan: &Plan) -> impl Iterator<Item = (Pattern, Trajectory)> + '_ {
 }
 
 /// Figs. 5.14 and 5.15: a leaf that descends steadily, then autorotates, and its coefficients.
-pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Error> {
+pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<(Value, Value), Error> {
     let sequence = [Pattern::SteadyDescent, Pattern::Autorotation];
     let plan = planner.plan_sequence(&sequence, seed)?;
     let mut path = Panel::new("the fall (scales differ)", "x, cm", "y, cm");
@@ -243,6 +253,7 @@ pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Er
         path.items.extend(side(&part, 0.042, 6, color(pattern)));
     }
     let mut controls = Panel::new("control parameters c̃", "time, s", "");
+    let mut coefficients = serde_json::Map::new();
     let mut forces = Panel::new("coefficients C_d, C_l1, C_l2 (Fig. 5.15)", "time, s", "");
     let names = ["drag", "rotational lift", "translational lift"];
     let colors = [GREY, BLUE, RGBColor(220, 120, 20)];
@@ -271,9 +282,13 @@ pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Er
             let shape = [sine * sine, (2.0 * alpha).sin(), (2.0 * alpha).cos()][k];
             (t, f64::from(<[f32; 3]>::from(series.at(t))[k]) * shape)
         });
-        forces
-            .items
-            .push(Item::Line(instant.collect(), colors[k], 1));
+        let instant: Vec<Point> = instant.collect();
+        let size = instant.len() as f64;
+        let mean = instant.iter().map(|p| p.1).sum::<f64>() / size;
+        let square = instant.iter().map(|p| (p.1 - mean).powi(2)).sum::<f64>() / size;
+        let numbers = json!({ "mean": mean, "standard_deviation": square.sqrt() });
+        coefficients.insert(names[k].replace(' ', "_"), numbers);
+        forces.items.push(Item::Line(instant, colors[k], 1));
     }
     controls.window = Some([(0.0, plan.series.duration()), (0.0, 4.8)]);
     let title = "A leaf of 7.3 × 4.2 × 0.03 cm: steady descent (red), then autorotation (magenta), Figs. 5.14, 5.15";
@@ -289,7 +304,8 @@ pub fn leaf(context: &Context, planner: &Planner, seed: u64) -> Result<Value, Er
         .iter()
         .map(|d| d.observed.abbreviation())
         .collect();
-    Ok(json!({ "observed": observed, "seconds": plan.series.duration() }))
+    let planned = json!({ "observed": observed, "seconds": plan.series.duration() });
+    Ok((planned, Value::Object(coefficients)))
 }
 
 /// Fig. 5.16: leaves from a tree, equal starts, different styles.

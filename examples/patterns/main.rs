@@ -1,10 +1,11 @@
 //! Motion patterns in pictures: the phase diagram with a body of your own on it, and what chapter 5 of
-//! H. Xie's thesis shows (Figs. 5.5–5.8, 5.10, 5.13–5.16), recomputed.
+//! H. Xie's thesis shows (Figs. 5.5–5.16), recomputed. With `--json` the numbers behind every figure, by its number.
 //!
 //! ```text
 //! cargo run --release --features bake,serde-serialize --example patterns -- --out out
 //! ```
 
+mod card;
 #[path = "../support/draw.rs"]
 #[allow(dead_code, reason = "shared with other examples")]
 mod draw;
@@ -172,14 +173,21 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
         "fig_5_10_default_law.svg",
     )?;
     let planner = falls::planner(&free_leaf, &leaf_space)?;
+    let (fig_5_6, fig_5_12) = card::four_patterns(&context)?;
+    let (fig_5_14, fig_5_15) = falls::leaf(&context, &planner, seed)?;
     let numbers = json!({
         "phase": phase,
-        "clusters": clusters,
-        "subspaces": [card_subspaces, leaf_subspaces],
+        "fig_5_7": clusters,
+        "fig_5_8": trained.iter().map(Trained::counts).collect::<Vec<_>>(),
+        "fig_5_9": training::sampling(&context, &trainee(&card))?,
+        "fig_5_10": [card_subspaces, leaf_subspaces],
+        "fig_5_11": card::graph(&context),
+        "fig_5_12": fig_5_12,
         "fig_5_5": falls::helix(&context)?,
-        "fig_5_6": falls::four_patterns(&context)?,
+        "fig_5_6": fig_5_6,
         "fig_5_13": falls::effects(&context, seed)?,
-        "fig_5_14": falls::leaf(&context, &planner, seed)?,
+        "fig_5_14": fig_5_14,
+        "fig_5_15": fig_5_15,
         "fig_5_16": falls::tree(&context, &planner, seed, arguments.leaves)?,
         "sketches": falls::sketches(&context, &free_leaf, seed)?,
         "step_error": if arguments.step_error {

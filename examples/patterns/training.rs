@@ -1,10 +1,12 @@
-//! Training in pictures: thesis Figs. 5.7, 5.8 and 5.10.
+//! Training in pictures: thesis Figs. 5.7 to 5.10.
 
 use crate::draw::{Item, Panel, color, cube, depth, isometric};
 use crate::{Context, bar};
 use rapier3d_immersed::Error;
 use rapier3d_immersed::motion::{Classifier, DimensionlessNumbers, Pattern};
-use rapier3d_immersed::training::{Clusters, Experiment, Grid, Sample, Subspaces, Sweep};
+use rapier3d_immersed::training::{
+    Axis, Clusters, Experiment, Features, Grid, Parameter, Sample, Subspaces, Sweep,
+};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -16,6 +18,10 @@ pub struct Trained {
     pub limit: f64,
     pub sweep: Sweep,
     pub clusters: Clusters,
+    /// Clusters by how the bodies turn.
+    pub turning: Clusters,
+    /// The same with the flips that the direct classifier counts.
+    pub flips: Clusters,
     pub seconds: f64,
 }
 
@@ -35,12 +41,16 @@ impl Trained {
         let body = &experiment.body.hydro;
         let length =
             DimensionlessNumbers::of(body, &experiment.mass, &experiment.fluid, 9.81)?.length;
-        let clusters = Clusters::find(&samples, length, seed)?;
+        let find = |features| Clusters::find_by(features, &samples, length, seed);
+        let clusters = find(Features::Path)?;
+        let (turning, flips) = (find(Features::Turning)?, find(Features::Flips)?);
         Ok(Self {
             name: name.into(),
             limit,
             sweep,
             clusters,
+            turning,
+            flips,
             seconds,
         })
     }
@@ -100,21 +110,37 @@ impl Trained {
         panel
     }
 
+    /// How many falls show each pattern, in the order of [`Pattern::ALL`].
+    fn count(&self, direct: bool) -> [usize; 4] {
+        Pattern::ALL.map(|pattern| {
+            let shown = self.samples().filter(|s| self.label(s, direct) == pattern);
+            shown.count()
+        })
+    }
+
+    /// Fig. 5.8 in numbers.
+    pub fn counts(&self) -> Value {
+        json!({
+            "name": self.name,
+            "order": Pattern::ALL.map(Pattern::abbreviation),
+            "direct": self.count(true),
+            "k_means": self.count(false),
+        })
+    }
+
     pub fn json(&self) -> Value {
-        let count = |direct| {
-            Pattern::ALL.map(|p| {
-                self.samples()
-                    .filter(|s| self.label(s, direct) == p)
-                    .count()
-            })
-        };
         json!({
             "name": self.name,
             "samples": self.sweep.grid().len(),
             "seconds": self.seconds,
-            "direct": count(true),
-            "clusters": count(false),
+            "direct": self.count(true),
+            "clusters": self.count(false),
             "agreement": self.agreement(),
+            "kappa": {
+                "path": self.clusters.kappa(self.samples()),
+                "turning": self.turning.kappa(self.samples()),
+                "flips": self.flips.kappa(self.samples()),
+            },
             "confusion": self.clusters.confusion(self.samples()),
             "steady_regions": regions(&self.sweep, |s| s.pattern()),
             "steady_regions_clusters": regions(&self.sweep, |s| self.clusters.label(s)),
@@ -176,14 +202,75 @@ pub fn clusters(context: &Context, trained: &[Trained]) -> Value {
     let list: Vec<Value> = trained.iter().map(Trained::json).collect();
     for t in trained {
         context.say(format!(
-            "{}: {} falls in {:.2} s; k-means and the direct classifier agree on {:.0} %",
+            "{}: {} falls in {:.2} s; k-means of (d, e) and the direct classifier agree on {:.0} %, κ {:.2}; \
+             by how they turn κ {:.2}, with flips {:.2}",
             t.name,
             t.sweep.grid().len(),
             t.seconds,
-            100.0 * t.agreement()
+            100.0 * t.agreement(),
+            t.clusters.kappa(t.samples()),
+            t.turning.kappa(t.samples()),
+            t.flips.kappa(t.samples()),
         ));
     }
     json!(list)
+}
+
+/// Fig. 5.9: from low to high resolution, in the plane of drag and rotational lift (C_L2 = 1).
+pub fn sampling(context: &Context, experiment: &Experiment) -> Result<Value, Error> {
+    let black = plotters::style::RGBColor(20, 20, 20);
+    let axis = Axis {
+        low: 0.02 * PI,
+        high: PI,
+        count: 9,
+    };
+    let parameters = [Parameter::Control(0), Parameter::Control(1)];
+    let mut sweep = Sweep::new(Grid::new(vec![axis; 2])?);
+    let run = |sweep: &mut Sweep| {
+        let go_on = |_, _| ControlFlow::Continue(());
+        sweep.run_parameters(experiment, &parameters, &Classifier::default(), go_on)
+    };
+    let (mut panels, mut rows) = (Vec::new(), Vec::new());
+    for level in 0..4 {
+        let before = sweep.clone();
+        if level > 0 {
+            sweep = sweep.refined(Sample::pattern)?;
+        }
+        let missing: Vec<usize> = (0..sweep.grid().len())
+            .filter(|node| level > 0 && sweep.samples()[*node].is_none())
+            .collect();
+        let falls = sweep.remaining();
+        run(&mut sweep)?;
+        let count = sweep.grid().len();
+        let title = format!("{count} nodes, {falls} of them simulated now");
+        let mut panel = Panel::new(title, "C_D", "C_L1").equal();
+        let half = 0.5 * sweep.grid().axes()[0].spacing();
+        for pattern in Pattern::ALL {
+            let nodes = (0..count).filter(|node| {
+                sweep.samples()[*node].is_some_and(|sample| sample.pattern() == pattern)
+            });
+            let boxes = nodes.map(|node| {
+                let p = sweep.grid().point(node);
+                ((p[0] - half, p[1] - half), (p[0] + half, p[1] + half))
+            });
+            panel
+                .items
+                .push(Item::Boxes(boxes.collect(), color(pattern)));
+        }
+        let dots = missing.iter().map(|node| {
+            let p = sweep.grid().point(*node);
+            (p[0], p[1])
+        });
+        let size = if level < 2 { 3 } else { 1 };
+        panel.items.push(Item::Dots(dots.collect(), black, size));
+        panels.push(panel);
+        let known = before.grid().len();
+        rows.push(json!({ "nodes": count, "simulated": falls, "nodes_before": known }));
+    }
+    let title = "Fig. 5.9: only nodes between disagreeing neighbours (black) are simulated anew; \
+                 red SD, magenta AR, blue AZ, green ZZ";
+    context.write("fig_5_9_sampling.svg", title, &panels, 4, (360, 390));
+    Ok(json!(rows))
 }
 
 /// Fig. 5.10: the subspaces after refinement, as slices.
