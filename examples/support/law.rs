@@ -52,12 +52,12 @@ const PRINTED: [[f64; 3]; 4] = [
     ThesisLaw::AUTOROTATION_ZIGZAG,
     ThesisLaw::AUTOROTATION,
 ];
-/// … and under the damped one.
+/// … and under the damped one, which has none of its own for the last.
 const DAMPED: [[f64; 3]; 4] = [
     ThesisLaw::DAMPED_STEADY_DESCENT,
     ThesisLaw::DAMPED_ZIGZAG,
     ThesisLaw::DAMPED_AUTOROTATION_ZIGZAG,
-    ThesisLaw::DAMPED_AUTOROTATION,
+    ThesisLaw::AUTOROTATION,
 ];
 
 fn thesis(coefficients: Option<&str>, presets: [[f64; 3]; 4]) -> Result<[f64; 3], String> {

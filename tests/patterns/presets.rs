@@ -15,40 +15,27 @@ fn shown(law: ThesisLaw, pattern: Pattern) -> usize {
 }
 
 /// Counts of 21 releases from 9° to 11° are in the presets' documentation; 12 of 21 are autorotation under the law as
-/// printed, 17 under the damped one: of seven, at least 2 and 4 with a probability of .98 and .94 each.
+/// printed: of seven, at least 2 with a probability of .98.
 #[test]
 fn presets_show_their_patterns() {
     use Pattern::*;
-    for (pattern, printed, damped, least) in [
-        (
-            SteadyDescent,
-            ThesisLaw::STEADY_DESCENT,
-            ThesisLaw::DAMPED_STEADY_DESCENT,
-            [7, 7],
-        ),
-        (Zigzag, ThesisLaw::ZIGZAG, ThesisLaw::DAMPED_ZIGZAG, [7, 7]),
-        (
-            AutorotationZigzag,
-            ThesisLaw::AUTOROTATION_ZIGZAG,
-            ThesisLaw::DAMPED_AUTOROTATION_ZIGZAG,
-            [7, 7],
-        ),
-        (
-            Autorotation,
-            ThesisLaw::AUTOROTATION,
-            ThesisLaw::DAMPED_AUTOROTATION,
-            [2, 4],
-        ),
+    for (pattern, printed, least) in [
+        (SteadyDescent, ThesisLaw::STEADY_DESCENT, 7),
+        (Zigzag, ThesisLaw::ZIGZAG, 7),
+        (AutorotationZigzag, ThesisLaw::AUTOROTATION_ZIGZAG, 7),
+        (Autorotation, ThesisLaw::AUTOROTATION, 2),
     ] {
-        let counts = [
-            shown(ThesisLaw::printed(printed), pattern),
-            shown(ThesisLaw::new(damped), pattern),
-        ];
-        println!("{pattern}: {counts:?} of 7 releases, printed and damped");
-        assert!(
-            counts[0] >= least[0] && counts[1] >= least[1],
-            "{pattern} {counts:?}"
-        );
+        let count = shown(ThesisLaw::printed(printed), pattern);
+        println!("{pattern}: {count} of 7 releases, as printed");
+        assert!(count >= least, "{pattern} {count}");
+    }
+    for (pattern, damped) in [
+        (SteadyDescent, ThesisLaw::DAMPED_STEADY_DESCENT),
+        (Zigzag, ThesisLaw::DAMPED_ZIGZAG),
+        (AutorotationZigzag, ThesisLaw::DAMPED_AUTOROTATION_ZIGZAG),
+    ] {
+        let count = shown(ThesisLaw::new(damped), pattern);
+        assert_eq!(count, 7, "{pattern}");
     }
     // Under the damped law the printed coefficients do not, but for the first.
     for (pattern, printed) in [
