@@ -108,7 +108,8 @@ fn main() {
     }
     let title = "Paper of 8 × 2 × 0.01 cm in air, every 40 ms; released at 75° (top) and 30°";
     runs.draw("paper.svg", title, &pictures[0], (3, (330, 700)));
-    let title = "Where 200 of them are after 1.5 s, from above; released at 75° (top) and 30°";
+    let title =
+        "Where 200 pieces of this paper are after 1.5 s, from above; released at 75° (top) and 30°";
     runs.draw("endings.svg", title, &pictures[1], (3, (470, 480)));
 
     let airplane = runs.case(Case::airplane(0.0));

@@ -43,3 +43,54 @@ impl GravityStep {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{DryMass, ImmersedBody};
+    use crate::fluid::Fluid;
+    use crate::hydro::HydroProperties;
+    use rapier3d::geometry::SharedShape;
+    use rapier3d::na::Matrix3;
+
+    /// A ball in water whose center of mass is a third of its radius off its center, along its own x, which is turned: the
+    /// buoyancy at the center turns the heavy end down, with `ρVg × the lever` by hand, and the impulse of force and torque
+    /// is the mass matrix times the change.
+    #[test]
+    fn buoyancy_turns_the_heavy_end_down() {
+        let (radius, dt) = (0.1, 0.01);
+        let ball = SharedShape::ball(radius);
+        let hydro = HydroProperties::from_shape(ball.as_ref()).unwrap();
+        let displaced = f64::from(Fluid::WATER.density()) * hydro.volume;
+        let lever = f64::from(radius) / 3.0;
+        let dry = DryMass {
+            mass: 2.0 * displaced,
+            center: Vector3::x() * lever,
+            inertia: Matrix3::identity() * 0.05,
+        };
+        let body = ImmersedBody::new(hydro);
+        let constants = BodyConstants::new(&body, &dry, &Fluid::WATER).unwrap();
+        let mass = constants.mass_matrix();
+        let inverse = mass.try_inverse().unwrap();
+        // The body's x points along the world's z.
+        let frame = UnitQuaternion::from_scaled_axis(Vector3::y() * -std::f64::consts::FRAC_PI_2);
+        let gravity = Vector3::y() * -9.81;
+        let attitude = frame * constants.axes;
+        let step = GravityStep::of(&constants, &inverse, attitude, gravity, dt);
+        let force = Vector3::y() * (displaced - dry.mass) * 9.81;
+        // From the heavy end, at +z, back to the center, where buoyancy pulls up: r × F = −z × y = +x.
+        let torque = Vector3::x() * (lever * displaced * 9.81);
+        assert!((step.load.force - force).norm() < 1e-5 * force.norm());
+        assert!(
+            (step.load.torque - torque).norm() < 1e-5 * torque.norm(),
+            "{}",
+            step.load.torque
+        );
+        let back = frame.inverse();
+        let (linear, angular) = (back * step.change.linear, back * step.change.angular);
+        let change = Vector6::from_iterator(linear.iter().chain(&angular).copied());
+        let (force, torque) = (back * force * dt, back * torque * dt);
+        let impulse = Vector6::from_iterator(force.iter().chain(&torque).copied());
+        assert!((mass * change - impulse).norm() < 1e-5 * impulse.norm());
+    }
+}
