@@ -7,12 +7,12 @@ use rapier3d_immersed::flow::{Flow, Uniform};
 use rapier3d_immersed::free_surface::{Sea, Waves};
 use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{Key, MotionPath, WindResponse};
-use rapier3d_immersed::playback::{Drive, MotionPlayer, MotionPlayers};
+use rapier3d_immersed::playback::{Drive, MotionPlayer, MotionPlayers, Particle, Suspension};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::reduced::CrossParams;
 use rapier3d_immersed::turbulence::{Turbulence, TurbulenceState};
 use rapier3d_immersed::{
-    Fluid, HydroProperties, ImmersedBody, Immersion, Medium, Part, RapierSets, SeparatedLaw,
+    Fluid, HydroProperties, ImmersedBody, Immersion, Layer, Medium, Part, RapierSets, SeparatedLaw,
     ViscousLaw,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -77,6 +77,34 @@ fn steps_allocate_nothing() {
     for waves in [false, true] {
         floating_allocates_nothing(waves);
     }
+    suspensions_allocate_nothing();
+}
+
+/// Snow in turbulent wind that settles on the ground.
+fn suspensions_allocate_nothing() {
+    let mut world = PhysicsWorld::new();
+    world.insert(
+        RigidBodyBuilder::fixed(),
+        ColliderBuilder::cuboid(99.0, 0.5, 99.0),
+    );
+    world.step();
+    let state = TurbulenceState::from_intensity(1.0, 0.3, 0.5).unwrap();
+    let air = Layer::new(Fluid::AIR)
+        .with_flow(Uniform::new(1.0, 0.0, 0.0))
+        .with_turbulence(Turbulence::Homogeneous(state));
+    let mut snow = Suspension::new(air, Particle::sphere(3e-4, 200.0).unwrap()).unwrap();
+    for i in 0..1000 {
+        snow.insert(Vector::Y * (0.5 + 0.002 * i as Real), Vector::ZERO);
+    }
+    snow.step_in_world(0.02, &world);
+    let count = allocations(|| (0..50).for_each(|_| snow.step_in_world(0.02, &world)));
+    let settled = snow
+        .particles()
+        .iter()
+        .filter(|flake| flake.settled)
+        .count();
+    assert!((10..900).contains(&settled), "{settled}");
+    assert_eq!(count, 0);
 }
 
 /// Crates that bob, on still water and on a sea.

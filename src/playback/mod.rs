@@ -3,7 +3,8 @@
 //! A [`MotionPath`](crate::motion::path::MotionPath) says where a body would be in free fall. A
 //! [`MotionPlayer`] says which path a body follows, and how; [`MotionPlayers`] moves the bodies before each
 //! step of rapier, and hands them to the force model when they touch something. An [`Emitter`] lets bodies
-//! of both kinds into a world.
+//! of both kinds into a world. What is too small to fall in a pattern, dust and fine snow, is a [`Suspension`]: particles that no
+//! body of rapier stands for.
 //!
 //! ```
 //! use rapier3d_immersed::motion::path::{SynthesisParams, Synthesizer, TrajectoryDatabase};
@@ -41,12 +42,16 @@
 //! ```
 
 mod emitter;
+mod particle;
 mod player;
 mod player_state;
 mod players;
 #[cfg(feature = "serde-serialize")]
 mod snapshot;
+mod suspension;
 
 pub use emitter::{Emitter, EmitterParams};
+pub use particle::Particle;
 pub use player::{AtContact, Drive, MotionPlayer};
 pub use players::{MotionPlayers, Playing};
+pub use suspension::{Suspended, Suspension};

@@ -76,6 +76,14 @@ fn memory<T: Scalar>(x: T) -> (T, T) {
     )
 }
 
+/// e^(−x) and 1 − e^(−x) for x ≥ 0, each without cancellation.
+#[inline(always)]
+pub(crate) fn decay(x: Real) -> (Real, Real) {
+    let (kept, _) = memory(x);
+    let gone = if x < 0.35 { lost(x) } else { 1.0 - kept };
+    (kept, gone)
+}
+
 /// The velocity fluctuation of the fluid around one body, as an Ornstein–Uhlenbeck process.
 ///
 /// What is stored is the fluctuation divided by its standard deviation √(2k/3). Its equation
@@ -276,6 +284,13 @@ mod tests {
                 (f64::from(fresh2) - exact).abs() <= 4.0e-6 * exact,
                 "{x}: {fresh2} {exact}"
             );
+            let (kept, gone) = decay(x);
+            let exact = -(-y).exp_m1();
+            assert!(
+                (f64::from(gone) - exact).abs() <= 4.0e-6 * exact,
+                "{x}: {gone}"
+            );
+            assert!((kept + gone - 1.0).abs() < 2.0e-7);
         }
     }
 

@@ -46,7 +46,7 @@ pub use bake::{BakeReport, BakeSample, ShearSource, TurbulenceParams};
 pub use k_epsilon::{KEpsilon, TurbulenceState};
 #[cfg(feature = "bake")]
 pub use k_epsilon_grid::KEpsilonGrid;
-pub(crate) use langevin::{Eddies, pass};
+pub(crate) use langevin::{Eddies, decay, pass};
 pub use langevin::{SeenFluctuation, kolmogorov_constant, relative_velocity_after, spin_increment};
 pub use noise::NoiseStream;
 pub(crate) use noise::gaussian;
