@@ -37,6 +37,7 @@ mod pattern;
 mod phase_diagram;
 mod planned_for;
 mod sketch;
+mod sketch_csv;
 mod trajectory;
 mod turning;
 

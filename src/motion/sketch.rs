@@ -5,7 +5,7 @@ use rapier3d::na::Vector3;
 
 /// A path over time: points with times, smooth in between.
 ///
-/// [`Sketch::follow`] makes a body follow it, [`Sketch::landing`] draws one through a few points:
+/// [`Sketch::follow`] makes a body follow it, [`Sketch::landing`] draws one through a few points, [`Sketch::from_csv`] reads a table:
 ///
 /// ```
 /// use rapier3d_immersed::motion::Sketch;

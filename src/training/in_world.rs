@@ -9,7 +9,7 @@ use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::math::{to_f64, to_quaternion, to_real, to_rotation};
 use crate::motion::{Moment, Trajectory};
-use rapier3d::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use rapier3d::dynamics::{RigidBody, RigidBodyBuilder, RigidBodyHandle};
 use rapier3d::geometry::Collider;
 use rapier3d::na::{UnitQuaternion, Vector3};
 use rapier3d::pipeline::PhysicsWorld;
@@ -58,6 +58,18 @@ impl BodyState {
             orientation: body.orientation(),
             velocity: body.linear_velocity(),
             spin: body.angular_velocity(),
+        }
+    }
+
+    /// The state of one of rapier's bodies.
+    pub fn of_rapier(body: &RigidBody) -> Self {
+        Self {
+            position: to_f64(body.center_of_mass()),
+            orientation: UnitQuaternion::new_normalize(
+                to_quaternion(*body.rotation()).into_inner(),
+            ),
+            velocity: to_f64(body.linvel()),
+            spin: to_f64(body.angvel()),
         }
     }
 
@@ -229,15 +241,7 @@ impl BodyInWorld {
 
     /// The state of the body in rapier.
     pub fn state(&self) -> BodyState {
-        let body = &self.world.bodies[self.handle];
-        BodyState {
-            position: to_f64(body.center_of_mass()),
-            orientation: UnitQuaternion::new_normalize(
-                to_quaternion(*body.rotation()).into_inner(),
-            ),
-            velocity: to_f64(body.linvel()),
-            spin: to_f64(body.angvel()),
-        }
+        BodyState::of_rapier(&self.world.bodies[self.handle])
     }
 
     /// The forces on the body; `None` before the first step, with which it enters the fluid.

@@ -6,7 +6,8 @@
 //! disagree; [`Subspaces`] answer which pattern a point belongs to, by the direct [`Classifier`](crate::motion::Classifier) or by [`Clusters`], the thesis's own
 //! classification. A [`Planner`] makes series of force factors from them, which a body in rapier replays
 //! ([`Immersion::replay`](crate::Immersion::replay)). A [`Sketch`](crate::motion::Sketch) that is followed
-//! ([`Sketch::follow`](crate::motion::Sketch::follow)) needs an experiment only. Apart from these,
+//! ([`Sketch::follow`](crate::motion::Sketch::follow)) needs an experiment only; a [`SketchFollower`] does so among
+//! the winds, obstacles and other bodies of a world. Apart from these,
 //! [`fidelity`] compares laws with measured falls, [`FallStatistics`] say what a fall amounts to, and
 //! [`BodyInWorld`] is one body in a rapier world.
 //!
@@ -62,6 +63,8 @@ mod fall_statistics;
 pub mod fidelity;
 #[cfg(feature = "serde-serialize")]
 mod file;
+mod followed;
+mod follower;
 mod grid;
 mod in_world;
 mod parameter;
@@ -75,11 +78,12 @@ pub use cluster::{Clusters, Features};
 pub use energy::{ControlBox, EnergyObjective};
 pub use experiment::{Experiment, Release, thin_ellipsoid};
 pub use fall_statistics::FallStatistics;
+pub use followed::{FollowParams, Followed};
+pub use follower::SketchFollower;
 pub use grid::{Axis, Grid};
 pub use in_world::{BodyInWorld, BodyState};
 pub use parameter::Parameter;
 pub use plan::{DwellReport, Plan, PlannerParams};
 pub use planner::Planner;
-pub use sketch_control::{FollowParams, Followed};
 pub use subspace::Subspaces;
 pub use sweep::{Sample, Sweep};
