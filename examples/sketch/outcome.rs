@@ -82,9 +82,12 @@ impl Display for Outcome {
     }
 }
 
-/// From the side, from ahead and from above.
+/// Where a point of the world is in a picture.
+type View = fn(&Vec3) -> Point;
+
+/// From the front, from the left and from above.
 pub fn picture(stage: &Stage, outcomes: &[Outcome]) -> String {
-    let views: [(&str, [&str; 2], fn(&Vec3) -> Point); 3] = [
+    let views: [(&str, [&str; 2], View); 3] = [
         ("from the front", ["x, m", "y, m"], |p| (p.x, p.y)),
         ("from the left", ["z, m", "y, m"], |p| (p.z, p.y)),
         ("from above", ["x, m", "−z, m"], |p| (p.x, -p.z)),
@@ -107,7 +110,7 @@ pub fn picture(stage: &Stage, outcomes: &[Outcome]) -> String {
     draw::svg(title, &panels, 3, (430, 620)).expect("the picture is drawn into memory")
 }
 
-fn leaf(outcome: &Outcome, view: fn(&Vec3) -> Point, color: RGBColor) -> Vec<Item> {
+fn leaf(outcome: &Outcome, view: View, color: RGBColor) -> Vec<Item> {
     let end = outcome.sketch.duration();
     let asked = (0..=120).map(|i| view(&outcome.sketch.at(end * f64::from(i) / 120.0)));
     let flown = outcome.path.iter().step_by(4).map(view);
@@ -125,7 +128,7 @@ fn leaf(outcome: &Outcome, view: fn(&Vec3) -> Point, color: RGBColor) -> Vec<Ite
 }
 
 /// Outlines of balls and boxes.
-fn obstacles(stage: &Stage, view: fn(&Vec3) -> Point) -> Vec<Item> {
+fn obstacles(stage: &Stage, view: View) -> Vec<Item> {
     let balls = stage.balls.iter().map(|[x, y, z, radius]| {
         let (x, y) = view(&Vec3::new(*x, *y, *z));
         let around = (0..=48).map(|i| {

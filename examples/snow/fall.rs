@@ -47,18 +47,26 @@ pub fn wind(speed: f32, seed: u64) -> Result<(LogLaw, TurbulentLayer), Error> {
 /// Either kind of snow.
 pub enum Fall {
     Fine(Box<Drift>),
-    Large {
-        world: Box<PhysicsWorld>,
-        emitter: Box<Emitter>,
-        players: MotionPlayers,
-        immersion: Box<Immersion>,
-        words: String,
-    },
+    Large(Box<Flakes>),
+}
+
+/// Large flakes, and the world that they fall in.
+pub struct Flakes {
+    world: PhysicsWorld,
+    emitter: Emitter,
+    players: MotionPlayers,
+    immersion: Immersion,
+    words: String,
 }
 
 impl Fall {
-    /// Flakes that appear at the top within four seconds; a share of them plays paths.
-    pub fn large(flakes: u32, speed: f32, seed: u64, played: f32) -> Result<Self, Error> {
+    /// Flakes that come in within some seconds; a share of them plays paths.
+    pub fn large(
+        flakes: u32,
+        speed: f32,
+        seed: u64,
+        [within, played]: [f32; 2],
+    ) -> Result<Self, Error> {
         let collider = ColliderBuilder::cylinder(0.25e-3, 3e-3).density(100.0);
         let hydro = HydroProperties::from_shape(collider.shape.as_ref())?;
         let mass = DryMass::of_shape(collider.shape.as_ref(), 100.0)?;
@@ -75,7 +83,7 @@ impl Fall {
         let (wind, turbulence) = wind(speed, seed)?;
         let params = EmitterParams {
             corners: [Vector::new(LOW.x, 1.0, LOW.z), HIGH],
-            rate: flakes as f32 / 4.0,
+            rate: flakes as f32 / within,
             most: flakes as usize,
             played,
             seed,
@@ -93,13 +101,13 @@ impl Fall {
             numbers.broadside_descent(),
             numbers.reynolds_at(numbers.broadside_descent()),
         );
-        Ok(Self::Large {
-            world: Box::new(world(DT)),
-            emitter: Box::new(emitter),
+        Ok(Self::Large(Box::new(Flakes {
+            world: world(DT),
+            emitter,
             players,
-            immersion: Box::new(immersion),
+            immersion,
             words,
-        })
+        })))
     }
 
     pub fn described(&self) -> String {
@@ -114,7 +122,7 @@ impl Fall {
                     1e3 * particle.relaxation_time(air),
                 )
             }
-            Self::Large { words, .. } => words.clone(),
+            Self::Large(flakes) => flakes.words.clone(),
         }
     }
 
@@ -124,13 +132,14 @@ impl Fall {
                 drift.snow.step_in_world(DT, &drift.world);
                 drift.renew();
             }
-            Self::Large {
-                world,
-                emitter,
-                players,
-                immersion,
-                ..
-            } => {
+            Self::Large(flakes) => {
+                let Flakes {
+                    world,
+                    emitter,
+                    players,
+                    immersion,
+                    ..
+                } = &mut **flakes;
                 emitter.before_step(world, players, immersion);
                 players.before_step(&mut RapierSets::of(world), Some(immersion));
                 immersion.step(world);
@@ -142,14 +151,15 @@ impl Fall {
     pub fn moving(&self) -> usize {
         match self {
             Self::Fine(drift) => drift.snow.particles().len(),
-            Self::Large { emitter, .. } => emitter.alive().count(),
+            Self::Large(flakes) => flakes.emitter.alive().count(),
         }
     }
 
     pub fn settled(&self) -> usize {
         match self {
             Self::Fine(drift) => drift.settled.len(),
-            Self::Large { world, emitter, .. } => {
+            Self::Large(flakes) => {
+                let Flakes { world, emitter, .. } = &**flakes;
                 let at_rest = |handle: &RigidBodyHandle| {
                     let body = &world.bodies[*handle];
                     body.is_sleeping() || body.linvel().length() < 0.01
@@ -165,10 +175,11 @@ impl Fall {
                 let flying = drift.snow.particles().iter().map(|flake| flake.position);
                 flying.chain(drift.settled.iter().copied()).collect()
             }
-            Self::Large { world, emitter, .. } => emitter
-                .alive()
-                .map(|handle| world.bodies[handle].translation())
-                .collect(),
+            Self::Large(flakes) => {
+                let bodies = &flakes.world.bodies;
+                let alive = flakes.emitter.alive();
+                alive.map(|handle| bodies[handle].translation()).collect()
+            }
         }
     }
 }

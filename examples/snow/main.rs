@@ -69,7 +69,7 @@ fn main() -> Result<(), rapier3d_immersed::Error> {
     let (wind, seed) = (options.wind as f32, options.seed);
     let mut fall = match options.by {
         Means::Suspension => Fall::Fine(Box::new(Drift::new(options.flakes, wind, seed)?)),
-        Means::Emitter => Fall::large(options.flakes, wind, seed, 0.9)?,
+        Means::Emitter => Fall::large(options.flakes, wind, seed, [4.0, 0.9])?,
     };
     println!("{}", fall.described());
     let mut film = Film::new(&fall::world(fall::DT));
