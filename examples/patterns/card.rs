@@ -11,7 +11,9 @@ use serde_json::{Value, json};
 
 /// Pattern, coefficients as printed, those of the damped law where there are any, printed d (cm; that of AZ by the list of
 /// figures: the caption repeats 1.25) and e.
-const PATTERNS: [(Pattern, [f64; 3], Option<[f64; 3]>, [f64; 2]); 4] = [
+type Case = (Pattern, [f64; 3], Option<[f64; 3]>, [f64; 2]);
+
+const PATTERNS: [Case; 4] = [
     (
         Pattern::SteadyDescent,
         ThesisLaw::STEADY_DESCENT,
