@@ -15,10 +15,10 @@ pub struct Options {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["land", "patterns", "load"])]
     pub sketch: Option<PathBuf>,
     /// Place on the floor to land at, m; several for several leaves, in turn [default: 0.4,0.2 without any other request]
-    #[arg(long, value_name = "X,Z", value_parser = numbers::<2>, conflicts_with_all = ["patterns", "load"])]
+    #[arg(long, value_name = "X,Z", allow_hyphen_values = true, value_parser = numbers::<2>, conflicts_with_all = ["patterns", "load"])]
     pub land: Vec<[f64; 2]>,
     /// Point to pass on the way to the landing place, m; several from above to below
-    #[arg(long, value_name = "X,Y,Z", value_parser = cli::vector)]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = cli::vector)]
     pub pass: Vec<Vec3>,
     /// Patterns in their order: sd, ar, az, zz
     #[arg(long, value_delimiter = ',', conflicts_with = "load")]
@@ -33,7 +33,7 @@ pub struct Options {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=200))]
     pub bodies: Option<u32>,
     /// How far the start (of --sketch: the whole sketch) of a leaf is from that of the one before, m
-    #[arg(long, value_name = "X,Y,Z", default_value = "0.15,0,0", value_parser = cli::vector)]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, default_value = "0.15,0,0", value_parser = cli::vector)]
     pub spread: Vec3,
     /// Height of the start, m [default: 2; of a CSV table its own, of patterns their descent]
     #[arg(long, value_name = "M", value_parser = cli::positive)]
@@ -42,13 +42,13 @@ pub struct Options {
     #[arg(long, value_name = "S", value_parser = cli::positive)]
     pub seconds: Option<f64>,
     /// A ball that stands in the way: center and radius, m
-    #[arg(long, value_name = "X,Y,Z,R", value_parser = numbers::<4>)]
+    #[arg(long, value_name = "X,Y,Z,R", allow_hyphen_values = true, value_parser = numbers::<4>)]
     pub obstacle: Vec<[f64; 4]>,
     /// A box that stands in the way: center and extents, m
-    #[arg(long = "box", value_name = "X,Y,Z,A,B,C", value_parser = numbers::<6>)]
+    #[arg(long = "box", value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true, value_parser = numbers::<6>)]
     pub boxes: Vec<[f64; 6]>,
     /// Wind, m/s
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,0", value_parser = cli::vector)]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, default_value = "0,0,0", value_parser = cli::vector)]
     pub wind: Vec3,
     /// What a contact does to a series that is played (--patterns, --load)
     #[arg(long, value_enum, default_value = "ignore")]

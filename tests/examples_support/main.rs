@@ -20,6 +20,8 @@ mod seakeeping;
 mod stochastic_case;
 #[path = "../../examples/support/mod.rs"]
 mod support;
+#[path = "../../examples/sketch/svg.rs"]
+mod svg;
 #[path = "../../examples/boat/wigley.rs"]
 #[allow(dead_code, reason = "shared with the example")]
 mod wigley;
@@ -27,6 +29,7 @@ mod wigley;
 mod airplane;
 mod animation;
 mod boat;
+mod drawings;
 mod falls;
 mod leaves;
 mod meshes;
