@@ -76,9 +76,9 @@ fn main() -> ExitCode {
 }
 
 fn run(options: &Options) -> Result<(), Failure> {
-    let graphs = [MotionGraph::free_fall(), MotionGraph::thesis()];
-    let leaf = Prepared::new(Subject::leaf()?, graphs)?;
-    let paper = Prepared::new(Subject::paper()?, measured::graphs()?)?;
+    let leaf = Prepared::new(Subject::leaf()?, None, MotionGraph::thesis())?;
+    let [regimes, patterns] = measured::graphs()?;
+    let paper = Prepared::new(Subject::paper()?, Some(regimes), patterns)?;
     if !options.films_only {
         let measured = measured::means()?;
         let rows = measure(&leaf, &paper, &measured)?;

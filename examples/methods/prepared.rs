@@ -32,14 +32,18 @@ pub struct Prepared {
     pub separated: SeparatedLaw,
     pub layer: TurbulentLayer,
     database: Arc<TrajectoryDatabase>,
-    regimes: MotionGraph,
+    /// `None` is what the crate estimates for the main regime.
+    regimes: Option<MotionGraph>,
     making: [Making; 6],
 }
 
 impl Prepared {
-    /// `graphs`: which regime, and which pattern, follows which.
-    pub fn new(subject: Subject, graphs: [MotionGraph; 2]) -> Result<Self, Failure> {
-        let [regimes, patterns] = graphs;
+    /// Which regime, and which pattern, follows which; `None` is what the crate estimates for the main regime.
+    pub fn new(
+        subject: Subject,
+        regimes: Option<MotionGraph>,
+        patterns: MotionGraph,
+    ) -> Result<Self, Failure> {
         let ((database, _), of_graph) = Making::of(
             || TrajectoryDatabase::bake(&DatabaseParams::default()),
             |(database, _)| database.entries().len(),

@@ -18,8 +18,12 @@ pub struct Played {
 
 pub fn write(path: &Path, stage: &Stage, played: &[Played]) {
     let series = played.iter().map(|one| one.series.clone()).collect();
-    let law = stage.experiment.body.law;
-    let book = Codebook::new("leaf, 7.3 × 4.2 × 0.03 cm, 400 kg/m³, in air", law, series);
+    let planned_for = stage.experiment.planned_for();
+    let book = Codebook::new(
+        "leaf, 7.3 × 4.2 × 0.03 cm, 400 kg/m³, in air",
+        planned_for,
+        series,
+    );
     let book = book.unwrap_or_else(|problem| cli::cannot_write(path, problem));
     cli::write(path, book.to_bytes());
     let rows: Vec<Value> = played

@@ -10,7 +10,20 @@ pub const CHAPTER: Chapter = Chapter {
             api: api![boundary_element, Accuracy],
             example: Some("added_mass"),
             pictures: &["added_mass_error.svg"],
-            remark: "",
+            numbers: &[
+                Number::new(
+                    "ellipsoid of 1.3 cm: error of the previous method",
+                    "0.01",
+                    Printed("/ellipsoid/2/previous"),
+                ),
+                Number::new("… of ours", "", Printed("/ellipsoid/2/ours")),
+                Number::new(
+                    "ellipsoid of 0.1 mm: previous method",
+                    "",
+                    Printed("/ellipsoid/9/previous"),
+                ),
+                Number::new("… ours", "", Printed("/ellipsoid/9/ours")),
+            ],
             ..Entry::new("Fig. 5.2", "error of the added mass of thin bodies")
         },
         Entry {
@@ -23,6 +36,8 @@ pub const CHAPTER: Chapter = Chapter {
         },
         Entry {
             api: api![ThesisLaw],
+            remark: "Its three fits are constants of the law (`ThesisLaw::FIG_5_4_DATA_1` to `_3`), which has the curves of (5.15) to (5.17) by \
+                     construction; the data behind them are not published.",
             ..Entry::new("Fig. 5.4", "coefficients over the angle of attack")
         },
         Entry {

@@ -17,7 +17,11 @@ pub const RUNS: &[Run] = &[
     Run::new("stochastic", "", &[]),
     Run::new("added_mass", BOTH, &["--figure"]),
     Run::new("patterns", BOTH, &[]),
-    Run::new("reduced_models", "", &[]),
+    Run::new(
+        "reduced_models",
+        "",
+        &["--only", "linear,falling,coupled,kirchhoff,driven,planar"],
+    ),
     Run::new("methods", BOTH, &[]),
 ];
 

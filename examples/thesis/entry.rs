@@ -25,8 +25,35 @@ pub struct Entry {
     pub pictures: &'static [&'static str],
     /// Printed numbers and ours.
     pub numbers: &'static [Number],
+    /// Words that the entry's example prints, by two names.
+    pub grid: Option<Grid>,
     /// What came out otherwise, or what cannot be had, and why.
     pub remark: &'static str,
+}
+
+/// A table of what an example prints: its columns and rows, each with a title and its name in the pointer.
+pub struct Grid {
+    pub columns: &'static [(&'static str, &'static str)],
+    pub rows: &'static [(&'static str, &'static str)],
+    /// With COLUMN and ROW in place of the names.
+    pub pointer: &'static str,
+}
+
+impl Grid {
+    /// Keys in the file of measured values and pointers into the example's output, row by row.
+    pub fn cells(&self, entry: &Entry) -> Vec<(String, String)> {
+        let of = |(row, row_name): &(&str, &str)| -> Vec<(String, String)> {
+            let cell = |(column, name): &(&str, &str)| {
+                let pointer = self
+                    .pointer
+                    .replace("COLUMN", name)
+                    .replace("ROW", row_name);
+                (format!("{}: {column}, {row}", entry.name), pointer)
+            };
+            self.columns.iter().map(cell).collect()
+        };
+        self.rows.iter().flat_map(of).collect()
+    }
 }
 
 /// A chapter of the page.
@@ -125,6 +152,7 @@ impl Entry {
             example: None,
             pictures: &[],
             numbers: &[],
+            grid: None,
             remark: "",
         }
     }

@@ -61,6 +61,13 @@ fn run() -> Result<(), Box<dyn Error>> {
             let value = value.ok_or_else(|| format!("{key}: nothing of that name was measured"))?;
             measured.insert(key, value);
         }
+        for (key, pointer) in entry.grid.iter().flat_map(|grid| grid.cells(entry)) {
+            let value = from(entry, &pointer, &printed)?;
+            measured.insert(
+                key,
+                value.ok_or_else(|| format!("{}: no {pointer}", entry.name))?,
+            );
+        }
     }
     keep_only_shown(&docs.join("thesis"))?;
     let measured = Value::Object(measured);

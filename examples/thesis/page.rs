@@ -63,6 +63,24 @@ fn section(page: &mut String, entry: &Entry, runs: &[Run], measured: &Value) -> 
         }
         put("\n".into());
     }
+    if let Some(grid) = &entry.grid {
+        let titles: Vec<&str> = grid.columns.iter().map(|(title, _)| *title).collect();
+        put(format!(
+            "| | {} |\n|---{}|\n",
+            titles.join(" | "),
+            "|---".repeat(titles.len())
+        ));
+        let cells = grid.cells(entry);
+        for ((row, _), cells) in grid.rows.iter().zip(cells.chunks(titles.len())) {
+            let found = cells
+                .iter()
+                .map(|(key, _)| measured.get(key).and_then(Value::as_str));
+            let found: Option<Vec<&str>> = found.collect();
+            let found = found.ok_or_else(|| format!("{}: {row} is not measured", entry.name))?;
+            put(format!("| {row} | {} |\n", found.join(" | ")));
+        }
+        put("\n".into());
+    }
     if !entry.remark.is_empty() {
         put(format!("{}\n\n", entry.remark));
     }
