@@ -62,7 +62,7 @@ const GRAPH: &[Entry] = &[
         api: api![motion::PhaseDiagram, motion::DimensionlessNumbers],
         example: Some("patterns"),
         pictures: &["phase_diagram.svg"],
-        remark: "The curves are those of Field et al. (1997). Where helix and spiral begin was never measured: a convention.",
+        remark: "The curves are those of Field et al. (1997). Where the spiral begins is from the crate's own falls; where the helix does, a convention.",
         ..Entry::new("Fig. 3.3", "phase diagram over Re and I*")
     },
     Entry {

@@ -44,12 +44,56 @@ pub const CHAPTER: Chapter = Chapter {
             api: api![PhysicalLaw],
             example: Some("patterns"),
             pictures: &["fig_5_5_helix.svg"],
+            numbers: &[
+                Number::new("radius, cm", "", Printed("/fig_5_5/radius_cm")),
+                Number::new("pitch, cm", "", Printed("/fig_5_5/pitch_cm")),
+                Number::new(
+                    "residual over the radius",
+                    "",
+                    Printed("/fig_5_5/residual_of_radius"),
+                ),
+                Number::new(
+                    "releases near 45° that tumble, of 40",
+                    "",
+                    Printed("/fig_5_5/releases_tumbling"),
+                ),
+                Number::new(
+                    "… along a helix",
+                    "one, shown",
+                    Printed("/fig_5_5/releases_helix"),
+                ),
+            ],
+            remark: "Its card tumbles from almost every release; along a helix from two of forty. The release drawn is one of these.",
             ..Entry::new("Fig. 5.5", "a card that autorotates along a helix")
         },
         Entry {
             api: api![motion::Pattern, motion::Classifier, motion::Spread],
             example: Some("patterns"),
             pictures: &["fig_5_6_patterns.svg"],
+            numbers: &[
+                Number::new(
+                    "d of SD, cm",
+                    "1.25",
+                    Printed("/fig_5_6/distances_under_readings/0/d_cm/0"),
+                ),
+                Number::new(
+                    "… ZZ",
+                    "5.69",
+                    Printed("/fig_5_6/distances_under_readings/0/d_cm/1"),
+                ),
+                Number::new(
+                    "… AZ",
+                    "13.72 (1.25 in the figure)",
+                    Printed("/fig_5_6/distances_under_readings/0/d_cm/2"),
+                ),
+                Number::new(
+                    "… AR",
+                    "22.43",
+                    Printed("/fig_5_6/distances_under_readings/0/d_cm/3"),
+                ),
+            ],
+            remark: "Every printed coefficient shows its pattern (the direct classifier, releases from 9° to 11°), but AR, which does in 12 of \
+                     21. Its distances come out only for a card of twice the mass, whose patterns then are others: no reading gives both.",
             ..Entry::new(
                 "Figs. 5.6, 5.7",
                 "four patterns of a card, and their d and e",
@@ -59,17 +103,73 @@ pub const CHAPTER: Chapter = Chapter {
             api: api![training::Sweep, training::Clusters],
             example: Some("patterns"),
             pictures: &["fig_5_7_clusters.svg", "fig_5_8_samples.svg"],
+            numbers: &[
+                Number::new(
+                    "κ of (d, e) against the direct classifier, card",
+                    "",
+                    Printed("/fig_5_7/0/kappa/path"),
+                ),
+                Number::new(
+                    "… of how the body turns",
+                    "",
+                    Printed("/fig_5_7/0/kappa/turning"),
+                ),
+                Number::new(
+                    "… of turns and flips",
+                    "",
+                    Printed("/fig_5_7/0/kappa/flips"),
+                ),
+                Number::new(
+                    "leaf under the default law: (d, e)",
+                    "",
+                    Printed("/fig_5_7/3/kappa/path"),
+                ),
+                Number::new(
+                    "… of how the body turns",
+                    "",
+                    Printed("/fig_5_7/3/kappa/turning"),
+                ),
+            ],
+            remark: "That d and e tell the patterns apart is not reproduced: they do not see whether a body turns over. `Features` has sets that do; \
+                     they were chosen on these falls.",
             ..Entry::new("Fig. 5.8", "clusters over d and e")
         },
         Entry {
             api: api![training::Grid, training::Subspaces],
             example: Some("patterns"),
-            pictures: &["fig_5_10_thesis_law.svg", "fig_5_10_default_law.svg"],
+            pictures: &[
+                "fig_5_9_sampling.svg",
+                "fig_5_10_thesis_law.svg",
+                "fig_5_10_default_law.svg",
+            ],
+            numbers: &[
+                Number::new(
+                    "nodes of the finest grid",
+                    "4913",
+                    Printed("/fig_5_10/0/nodes"),
+                ),
+                Number::new(
+                    "falls that the refinement takes",
+                    "",
+                    Printed("/fig_5_10/0/new_falls"),
+                ),
+            ],
             ..Entry::new("Figs. 5.9, 5.10", "sampling, and subspaces of patterns")
         },
         Entry {
             api: api![motion::MotionGraph, training::Planner],
             example: Some("patterns"),
+            pictures: &["fig_5_11_graph.svg", "fig_5_12_curvature.svg"],
+            numbers: &[
+                Number::new(
+                    "maxima of the curvature: ZZ",
+                    "several",
+                    Printed("/fig_5_12/1/maxima"),
+                ),
+                Number::new("… AZ", "several", Printed("/fig_5_12/2/maxima")),
+                Number::new("… AR", "several", Printed("/fig_5_12/3/maxima")),
+            ],
+            remark: "The probabilities of (5.25) are the thesis's own. By its tolerance of 0.1 the flutter of this card has no maxima.",
             ..Entry::new(
                 "Figs. 5.11, 5.12, (5.25)",
                 "transitions, and where they happen",
@@ -79,12 +179,22 @@ pub const CHAPTER: Chapter = Chapter {
             api: api![ViscousLaw, training::Experiment],
             example: Some("patterns"),
             pictures: &["fig_5_13_effects.svg"],
+            numbers: &[Number::new(
+                "largest rise of the center with all effects, mm",
+                "rises at turns",
+                Printed("/fig_5_13/4/largest_rise_mm"),
+            )],
+            remark: "That the center of mass rises where the path turns is not seen in these falls.",
             ..Entry::new("Fig. 5.13", "effects of the fluid switched on one by one")
         },
         Entry {
             api: api![training::Planner, Immersion],
             example: Some("patterns"),
             pictures: &["fig_5_14_leaf.svg"],
+            numbers: &[
+                Number::new("first pattern", "SD", Printed("/fig_5_14/observed/0")),
+                Number::new("second pattern", "AR", Printed("/fig_5_14/observed/1")),
+            ],
             ..Entry::new("Figs. 5.14, 5.15", "a leaf that descends and then tumbles")
         },
         Entry {

@@ -199,6 +199,20 @@ const COMPARISON: &[Entry] = &[
         api: api![motion::Sketch, training::Followed],
         example: Some("patterns"),
         pictures: &["sketches.svg"],
+        numbers: &[
+            Number::new(
+                "a swing of five points: mean distance, cm",
+                "",
+                Printed("/sketches/0/mean_cm"),
+            ),
+            Number::new("a glide", "", Printed("/sketches/1/mean_cm")),
+        ],
+        remark: "Drawn as SVG or loaded from a table, for several leaves at once, with wind and obstacles: example `sketch`.",
         ..Entry::new("§ 7.3, controllable simulation", "motion along a sketch")
+    },
+    Entry {
+        api: api![playback::Suspension, playback::Emitter],
+        remark: "Rapier collides all methods' bodies. Below Re 10 a hundred thousand flakes are a `Suspension`: example `snow`.",
+        ..Entry::new("§ 7.3, multibody simulation", "collisions, snow and dust")
     },
 ];
