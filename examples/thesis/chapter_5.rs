@@ -124,11 +124,7 @@ pub const CHAPTER: Chapter = Chapter {
                     "",
                     Printed("/fig_5_7/3/kappa/path"),
                 ),
-                Number::new(
-                    "… of how the body turns",
-                    "",
-                    Printed("/fig_5_7/3/kappa/turning"),
-                ),
+                Number::new("… of how it turns", "", Printed("/fig_5_7/3/kappa/turning")),
             ],
             remark: "That d and e tell the patterns apart is not reproduced: they do not see whether a body turns over. `Features` has sets that do; \
                      they were chosen on these falls.",

@@ -4,6 +4,8 @@
 //! cargo run --release --features bake,serde-serialize --example thesis
 //! ```
 //!
+//! With `-- --render` it only writes the page again, from what was measured last: after its words have changed.
+//!
 //! Runs the examples that show the thesis's figures, takes the numbers that the thesis prints from what they
 //! print, and times what it times: a few minutes. `docs/thesis.json` keeps what was measured, so that a test
 //! (`tests/thesis`) can tell whether the page is what this would write.
@@ -35,6 +37,10 @@ fn main() {
 
 fn run() -> Result<(), Box<dyn Error>> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    if std::env::args().any(|argument| argument == "--render") {
+        let measured = std::fs::read_to_string(docs.join("thesis.json"))?;
+        return write_page(&docs, &serde_json::from_str(&measured)?);
+    }
     let style = ProgressStyle::with_template("{msg:>16} {wide_bar} {pos} of {len}")?;
     let bar = ProgressBar::new(RUNS.len() as u64 + 1).with_style(style);
     let mut printed = HashMap::new();
@@ -59,7 +65,9 @@ fn run() -> Result<(), Box<dyn Error>> {
             };
             let key = number.key(entry);
             let value = value.ok_or_else(|| format!("{key}: nothing of that name was measured"))?;
-            measured.insert(key, value);
+            if measured.insert(key.clone(), value).is_some() {
+                return Err(format!("{key}: two numbers of one name").into());
+            }
         }
         for (key, pointer) in entry.grid.iter().flat_map(|grid| grid.cells(entry)) {
             let value = from(entry, &pointer, &printed)?;
@@ -71,8 +79,12 @@ fn run() -> Result<(), Box<dyn Error>> {
     }
     keep_only_shown(&docs.join("thesis"))?;
     let measured = Value::Object(measured);
-    let page = page::render(&chapters(), RUNS, COMMAND, &measured)?;
     std::fs::write(docs.join("thesis.json"), format!("{measured:#}\n"))?;
+    write_page(&docs, &measured)
+}
+
+fn write_page(docs: &Path, measured: &Value) -> Result<(), Box<dyn Error>> {
+    let page = page::render(&chapters(), RUNS, COMMAND, measured)?;
     std::fs::write(docs.join("thesis.md"), page)?;
     println!("docs/thesis.md");
     Ok(())

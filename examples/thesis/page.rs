@@ -97,6 +97,9 @@ fn section(page: &mut String, entry: &Entry, runs: &[Run], measured: &Value) -> 
 
 /// A number with three digits, as people write it.
 fn shown(number: &Number, value: &Value) -> String {
+    if value.is_u64() {
+        return value.to_string();
+    }
     let Some(x) = value.as_f64() else {
         return value
             .as_str()
