@@ -20,6 +20,7 @@ mod curve;
 mod database;
 mod database_file;
 mod drift;
+mod frame_walk;
 mod frames;
 mod level;
 mod params;
