@@ -1,10 +1,10 @@
 //! A law of the user's own, as a closure.
 
-use super::frozen_force::of_force;
-use super::place::{PartPlace, moved, velocity_at};
+use super::frozen_force::of_each;
+use super::place::PartPlace;
 use crate::error::Error;
 use crate::math::Scalar;
-use crate::math::spatial::{Blocks, Twist, Wrench};
+use crate::math::spatial::{Blocks, Twist};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 use rapier3d::na::Vector3;
@@ -148,32 +148,14 @@ impl PreparedCustom {
 
     #[inline(always)]
     pub fn matrix<T: Scalar>(&self, place: &PartPlace<T>, v: &Twist<T>, factor: T) -> Blocks<T> {
-        let u = place.back(&velocity_at(v, &place.position));
-        let w = place.back(&v.angular);
-        let [fx, fy, fz, tx, ty, tz] = T::by_lane([u.x, u.y, u.z, w.x, w.y, w.z], |v| {
+        of_each(place, v, factor, |u, w| {
             let [force, torque] = (self.law.0)(&PartMotion {
-                linear: Vector3::new(v[0], v[1], v[2]),
-                angular: Vector3::new(v[3], v[4], v[5]) / self.length,
+                linear: *u,
+                angular: w / self.length,
                 density: self.density,
                 kinematic_viscosity: self.kinematic_viscosity,
             });
-            let (force, torque) = (force / self.mass, torque / (self.mass * self.length));
-            let all = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
-            // What is no number is no force.
-            if all.iter().all(|x| x.is_finite()) {
-                all
-            } else {
-                [0.0; 6]
-            }
-        });
-        let own = Twist {
-            linear: place.out(&u),
-            angular: place.out(&w),
-        };
-        let force = Wrench {
-            force: place.out(&Vector3::new(fx, fy, fz)) * factor,
-            torque: place.out(&Vector3::new(tx, ty, tz)) * factor,
-        };
-        moved(&of_force(&force, &own), &place.position)
+            [force / self.mass, torque / (self.mass * self.length)]
+        })
     }
 }

@@ -1,5 +1,6 @@
 //! A force that is known as a force alone, as the matrix of a substep.
 
+use super::place::{PartPlace, moved, velocity_at};
 use crate::math::Scalar;
 use crate::math::spatial::{Blocks, Twist, Wrench, dot, matrix};
 use rapier3d::na::Vector3;
@@ -12,12 +13,47 @@ const TINY: f64 = 1e-18;
 /// below a speed of force over mass over this. Faster turning would be lost in rounding.
 const FASTEST: f64 = 1e4;
 
+/// The matrix of a law that knows force and torque of one motion at a time: `of_motion` gives them of u and w, of the
+/// part's place and in its axes. Both are in the integrator's units, and what is no number is no force.
+#[inline(always)]
+pub(super) fn of_each<T: Scalar>(
+    place: &PartPlace<T>,
+    v: &Twist<T>,
+    factor: T,
+    of_motion: impl Fn(&Vector3<f64>, &Vector3<f64>) -> [Vector3<f64>; 2],
+) -> Blocks<T> {
+    let u = place.back(&velocity_at(v, &place.position));
+    let w = place.back(&v.angular);
+    let [fx, fy, fz, tx, ty, tz] = T::by_lane([u.x, u.y, u.z, w.x, w.y, w.z], |v| {
+        let (u, w) = (
+            Vector3::new(v[0], v[1], v[2]),
+            Vector3::new(v[3], v[4], v[5]),
+        );
+        let [force, torque] = of_motion(&u, &w);
+        let all = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
+        if all.iter().all(|x| x.is_finite()) {
+            all
+        } else {
+            [0.0; 6]
+        }
+    });
+    let own = Twist {
+        linear: place.out(&u),
+        angular: place.out(&w),
+    };
+    let force = Wrench {
+        force: place.out(&Vector3::new(fx, fy, fz)) * factor,
+        torque: place.out(&Vector3::new(tx, ty, tz)) * factor,
+    };
+    moved(&of_force(&force, &own), &place.position)
+}
+
 /// A force and torque on a part at a velocity ν, as a matrix that gives them at that velocity and takes no more
 /// energy than they do: what is along u or w and against it is a resistance there; what is across is the skew
 /// `(F νᵀ − ν Fᵀ)/|ν|²`. Where only force and torque together take energy, `(F·ν) ν νᵀ/|ν|⁴` is their resistance, and what gives
 /// energy (F·ν > 0) is left out.
 #[inline(always)]
-pub(super) fn of_force<T: Scalar>(force: &Wrench<T>, v: &Twist<T>) -> Blocks<T> {
+fn of_force<T: Scalar>(force: &Wrench<T>, v: &Twist<T>) -> Blocks<T> {
     let (u, w) = (&v.linear, &v.angular);
     let (zero, one) = (u.x.constant(0.0), u.x.constant(1.0));
     let least = zero.constant(LEAST_SPEED2);

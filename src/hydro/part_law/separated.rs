@@ -1,12 +1,12 @@
 //! A law as a reduced model: the force of another law, separated over all motions.
 
-use super::frozen_force::of_force;
-use super::place::{PartPlace, moved, velocity_at};
+use super::frozen_force::of_each;
+use super::place::PartPlace;
 use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::math::Scalar;
-use crate::math::spatial::{Blocks, Twist, Wrench};
+use crate::math::spatial::{Blocks, Twist};
 use crate::reduced::{Motions, SeparatedForces};
 use rapier3d::na::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -171,29 +171,10 @@ impl PreparedSeparated {
 
     #[inline(always)]
     pub fn matrix<T: Scalar>(&self, place: &PartPlace<T>, v: &Twist<T>, factor: T) -> Blocks<T> {
-        let u = place.back(&velocity_at(v, &place.position));
-        let w = place.back(&v.angular);
-        let [fx, fy, fz, tx, ty, tz] = T::by_lane([u.x, u.y, u.z, w.x, w.y, w.z], |v| {
-            let u = Vector3::new(v[0], v[1], v[2]) * self.linear;
-            let w = Vector3::new(v[3], v[4], v[5]) * self.angular;
+        of_each(place, v, factor, |u, w| {
+            let (u, w) = (u * self.linear, w * self.angular);
             let [force, torque] = self.law.forces.evaluate(&u, &w, &[]);
-            let (force, torque) = (force * self.force, torque * self.torque);
-            let all = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
-            // What is no number is no force.
-            if all.iter().all(|x| x.is_finite()) {
-                all
-            } else {
-                [0.0; 6]
-            }
-        });
-        let own = Twist {
-            linear: place.out(&u),
-            angular: place.out(&w),
-        };
-        let force = Wrench {
-            force: place.out(&Vector3::new(fx, fy, fz)) * factor,
-            torque: place.out(&Vector3::new(tx, ty, tz)) * factor,
-        };
-        moved(&of_force(&force, &own), &place.position)
+            [force * self.force, torque * self.torque]
+        })
     }
 }
