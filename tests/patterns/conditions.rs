@@ -52,6 +52,9 @@ fn followed(experiment: &Experiment, plans: &[Plan]) -> u32 {
 }
 
 /// Whether two shares of 40 are three standard errors of their difference apart (binomial).
+///
+/// The conditions below are as far from those of the training as it takes for 40 plans to show that. Nearer ones have the
+/// same sign, within less: 31 against 21 from 60°, 31 against 21 in 1.5 m/s, 37 against 27 with the center 2 mm aside.
 fn clearly_more(made_for: u32, made_for_another: u32) -> bool {
     let [p, q] = [made_for, made_for_another].map(|n| f64::from(n) / PLANS as f64);
     p - q > 3.0 * ((p * (1.0 - p) + q * (1.0 - q)) / PLANS as f64).sqrt()
