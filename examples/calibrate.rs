@@ -2,7 +2,7 @@
 //! in published experiments, and searches for what reproduces them best.
 //!
 //! ```text
-//! cargo run --release --features bake,serde-serialize --example calibrate -- --fit half
+//! cargo run --release --features bake,serde-serialize --example calibrate -- --measurements half
 //! ```
 //!
 //! The search is CMA-ES (Hansen 2016) between the bounds of
@@ -11,7 +11,7 @@
 //! the search reads it and goes on where it stopped.
 //!
 //! Afterwards it prints the score of each target, on the measurements that were fitted, on those that were
-//! not (`--fit half`), and for releases with other seeds.
+//! not (`--measurements half`), and for releases with other seeds.
 
 mod support;
 
@@ -32,6 +32,7 @@ use std::fs::{File, OpenOptions, read_to_string};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use support::cli;
+use support::options::{Out, Seed};
 
 /// Which measurements the search sees.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -42,39 +43,39 @@ enum Fit {
     Half,
 }
 
-/// Search for the coefficients of the default viscous law.
+/// Search for the coefficients of the default viscous law; `law.json` and a log are written.
 #[derive(Parser)]
+#[command(name = "calibrate", version)]
+#[command(mut_arg("out", |out| out.default_value("out/calibrate")))]
 struct Arguments {
-    /// Generations of the search; 0 only scores.
+    /// Generations of the search; 0 only scores
     #[arg(long, default_value_t = 200)]
     generations: usize,
-    /// Laws per generation.
+    /// Laws per generation
     #[arg(long, default_value_t = 24, value_parser = clap::value_parser!(u64).range(4..10_000))]
     population: u64,
-    /// First step of the search, in widths of the bounds.
+    /// First step of the search, in widths of the bounds
     #[arg(long, default_value = "0.15", value_parser = cli::positive)]
     step: f64,
-    /// Seed of the search.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Which measurements the search sees.
+    #[command(flatten)]
+    seed: Seed,
+    /// Which measurements the search sees
     #[arg(long, value_enum, default_value = "all")]
-    fit: Fit,
-    /// The search drops every n-th disc only.
+    measurements: Fit,
+    /// The search drops every n-th disc only
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..100))]
     stride: u64,
-    /// Release angles per plate and disc during the search.
+    /// Release angles per plate and disc during the search
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u64).range(1..=6))]
     releases: u64,
-    /// Drops per set of papers during the search.
+    /// Drops per set of papers during the search
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..1000))]
     drops: u64,
-    /// JSON file of the law to begin with; without it the default law.
+    /// JSON file of the law to begin with; without it the default law
     #[arg(long)]
     from: Option<PathBuf>,
-    /// Folder for `law.json` and the log.
-    #[arg(long, default_value = "out/calibrate")]
-    output: PathBuf,
+    #[command(flatten)]
+    out: Out,
 }
 
 /// The search's view of the measurements, and what it has seen of them.
@@ -112,7 +113,7 @@ impl Objective {
         });
         if known.is_none() {
             writeln!(seen.log, "{key} cost {cost} ;")
-                .unwrap_or_else(|error| cli::cannot_write(Path::new("--output"), error));
+                .unwrap_or_else(|error| cli::cannot_write(Path::new("--out"), error));
         }
         if cost < seen.best.0 {
             seen.best = (cost, places.to_vec());
@@ -155,7 +156,7 @@ fn main() {
             Err(error) => cli::bad_value("--from", error),
         }
     };
-    if arguments.fit == Fit::Half {
+    if arguments.measurements == Fit::Half {
         score("fitted", &all.clone().part(Part::Fitted), 1);
         score("held out", &all.clone().part(Part::HeldOut), 1);
     }
@@ -176,12 +177,12 @@ fn load(path: &Path) -> PhysicalLaw {
 
 fn search(arguments: &Arguments, all: &Fidelity, start: &PhysicalLaw) -> PhysicalLaw {
     let mut fidelity = all.clone();
-    if arguments.fit == Fit::Half {
+    if arguments.measurements == Fit::Half {
         fidelity = fidelity.part(Part::Fitted);
     }
     let fidelity = fidelity.thinned(arguments.stride as usize);
     let evaluations = arguments.generations as u64 * arguments.population + 1;
-    let (log, costs) = open_log(&arguments.output.join("evaluations.txt"));
+    let (log, costs) = open_log(&arguments.out.path("evaluations.txt"));
     let objective = Objective {
         fidelity,
         effort: Effort {
@@ -201,7 +202,7 @@ fn search(arguments: &Arguments, all: &Fidelity, start: &PhysicalLaw) -> Physica
         .with_population_size(arguments.population as usize)
         .and_then(|config| config.with_initial_sigma(arguments.step))
         .unwrap_or_else(|error| cli::bad_value("--population, --step", error));
-    let result = CMAES::<f64>::new(Some(arguments.seed)).process(
+    let result = CMAES::<f64>::new(Some(arguments.seed.value)).process(
         &objective,
         &(),
         Vector::from_vec(places),
@@ -215,7 +216,7 @@ fn search(arguments: &Arguments, all: &Fidelity, start: &PhysicalLaw) -> Physica
     seen.progress.finish();
     let law = law_at(&seen.best.1);
     let json = serde_json::to_string_pretty(&law).expect("a law is finite numbers");
-    cli::write(&arguments.output.join("law.json"), json);
+    arguments.out.write("law.json", json);
     println!("cost {:.4}", seen.best.0);
     for (coefficient, _) in searched() {
         println!("{:>22} {:.4}", coefficient.name, coefficient.of(&law));

@@ -3,6 +3,7 @@
 //! ```text
 //! cargo run --release --example drop -- --shape plate --size 0.00648,0.00081,0.19 \
 //!     --density 2700 --fluid water --release-angle 45 --law default --seconds 4
+//! cargo run --release --example drop -- --shape leaf --density 400 --shake --seed 3 --open    # in the browser
 //! ```
 
 mod support;
@@ -12,40 +13,34 @@ use rapier3d_immersed::training::{BodyState, FallStatistics};
 use rapier3d_immersed::{DryMass, Fluid, FreeBody, ImmersedBody};
 use serde_json::json;
 use std::path::PathBuf;
-use support::cli::{self, FluidArgs, Lengths, bad_value};
+use support::cli::{self, FluidArgs, bad_value};
 use support::fall::{Fall, FallOptions, IntegratorName, shaken};
+use support::film::{Film, FilmArgs, FrameRate};
 use support::law::{LawName, law};
-use support::specimen::{ShapeName, Specimen, TiltAxis};
+use support::options::{Json, Material, Out, Seconds, Seed, TimeStep, wrote};
+use support::scene::{Kind, Scene};
+use support::series::CsvArgs;
+use support::shape::ShapeArgs;
+use support::specimen::{Specimen, TiltAxis};
 use support::{Vec3, picture};
 
 /// One body in free fall through a fluid at rest; statistics over the second half of the run.
 ///
-/// World axes: y is up. At a release angle of 0 a thin body lies flat, its longest extent along x;
-/// boxes and ellipsoids keep the axes of their --size, y up.
+/// World axes: y is up. At a release angle of 0 a thin body lies flat, its longest extent along x; all others keep the axes of
+/// their --size, y up. Without --density or --mass the body has 800 kg/m³. --csv
+/// has every step: place, attitude, velocities, and the components of force and torque (N and Nm, world axes).
 #[derive(Parser, Debug)]
 #[command(name = "drop", version, allow_negative_numbers = true)]
+#[command(mut_arg("dt", |dt| dt.default_value("0.004")))]
+#[command(mut_arg("seconds", |seconds| seconds.default_value("5")))]
+#[command(mut_arg("seed", |seed| seed.requires("shake")))]
 struct Options {
-    /// Shape of the body; may be left out with --mesh
-    #[arg(long, value_enum)]
-    shape: Option<ShapeName>,
-    /// Full extents, m. disc: diameter,thickness; sphere: diameter; ellipse: major,minor,thickness;
-    /// plate, box and ellipsoid: x,y,z (a plate's thinnest extent is its thickness in any order)
-    #[arg(long, value_name = "A[,B[,C]]", value_parser = cli::lengths, allow_hyphen_values = true)]
-    size: Option<Lengths>,
-    /// OBJ or STL file for --shape mesh: a closed solid, or an open sheet
-    #[arg(long, value_name = "FILE")]
-    mesh: Option<PathBuf>,
-    /// Metres per unit of the --mesh, such as 0.001 for millimetres [default: 1, up to 10 m]
-    #[arg(long, value_name = "M", value_parser = cli::positive)]
-    scale: Option<f64>,
-    /// Thickness given to a --mesh that is an open sheet, m
-    #[arg(long, value_name = "M", default_value = "0.0003", value_parser = cli::positive)]
-    thickness: f64,
-    /// Density of the body, kg/m³ [default: 800]
-    #[arg(long, value_name = "KG/M3", value_parser = cli::positive, conflicts_with = "mass")]
-    density: Option<f64>,
+    #[command(flatten)]
+    body: ShapeArgs,
+    #[command(flatten)]
+    material: Material,
     /// Mass of the body, kg, instead of --density
-    #[arg(long, value_name = "KG", value_parser = cli::positive)]
+    #[arg(long, value_name = "KG", value_parser = cli::positive, conflicts_with = "density")]
     mass: Option<f64>,
     #[command(flatten)]
     fluid: FluidArgs,
@@ -74,50 +69,45 @@ struct Options {
     /// Gravity, m/s², downward
     #[arg(long, value_name = "M/S2", default_value = "9.81", value_parser = cli::not_negative)]
     gravity: f64,
-    /// Time step, s
-    #[arg(long, value_name = "S", default_value = "0.004", value_parser = cli::positive)]
-    dt: f64,
-    /// Length of the fall, s
-    #[arg(long, value_name = "S", default_value = "5", value_parser = cli::positive)]
-    seconds: f64,
-    /// Shakes the release: heading at random, tilt and spin by 2° and 0.1 rad/s (standard deviation);
-    /// without it the release is exact
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
+    #[command(flatten)]
+    step: TimeStep,
+    #[command(flatten)]
+    time: Seconds,
+    /// Shake the release: heading at random, tilt and spin by 2° and 0.1 rad/s (standard deviation)
+    #[arg(long)]
+    shake: bool,
+    #[command(flatten)]
+    seed: Seed,
     /// Who integrates: a rapier world (f32), or the crate's own free body (f64)
     #[arg(long, value_enum, default_value = "rapier")]
     integrator: IntegratorName,
-    /// Write t, position, quaternion, velocities and the components of the force (world axes, N and N·m) on
-    /// every step
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    #[command(flatten)]
+    csv: CsvArgs,
     /// Draw the trajectory, from the side and from above
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Print one JSON object instead of the table
+    /// Write a page that plays the fall, and a .glb, into --out; --gif and --open do so, too
     #[arg(long)]
-    json: bool,
+    film: bool,
+    #[command(flatten)]
+    frame_rate: FrameRate,
+    #[command(flatten)]
+    filmed: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    json: Json,
 }
 
 fn main() {
     let options: Options = cli::parse();
-    let shape = match (options.shape, &options.mesh) {
-        (Some(shape), _) => shape,
-        (None, Some(_)) => ShapeName::Mesh,
-        (None, None) => bad_value("--shape", "is required, or --mesh FILE"),
-    };
-    let specimen = Specimen::new(
-        shape,
-        options.size.as_ref(),
-        options.mesh.as_deref(),
-        options.scale,
-        options.thickness,
-    )
-    .unwrap_or_else(|(flag, problem)| bad_value(flag, problem));
+    let shaped = options.body.shaped();
+    let specimen =
+        Specimen::new(&shaped).unwrap_or_else(|problem| bad_value("--shape/--size", problem));
     let fluid = options.fluid.fluid();
     let density = match options.mass {
         Some(mass) => mass / specimen.volume,
-        None => options.density.unwrap_or(800.0),
+        None => options.material.density.unwrap_or(800.0),
     };
     let dry = specimen.dry_mass(density);
     let law = law(options.law, options.coefficients.as_deref())
@@ -127,23 +117,24 @@ fn main() {
         .unwrap_or_else(|error| bad_value("--coefficients", error));
     check(&body, &dry, &fluid);
 
-    let tilt_axis = options.tilt_axis.unwrap_or(TiltAxis::usual(shape));
+    let tilt_axis = options.tilt_axis.unwrap_or(TiltAxis::usual(shaped.shape));
     let release = BodyState {
         orientation: specimen.released_at(options.release_angle.to_radians(), tilt_axis),
         velocity: options.velocity,
         spin: options.spin,
         ..BodyState::default()
     };
-    let release = match options.seed {
-        Some(seed) => shaken(release, seed),
-        None => release,
+    let release = match options.shake {
+        true => shaken(release, options.seed.value),
+        false => release,
     };
+    let filmed = options.film || options.filmed.gif || options.filmed.open;
     let fall_options = FallOptions {
         gravity: options.gravity,
-        dt: options.dt,
-        seconds: options.seconds,
+        dt: options.step.given(),
+        seconds: options.time.given(),
         integrator: options.integrator,
-        forces: options.csv.is_some(),
+        forces: options.csv.csv.is_some() || filmed,
     };
     fall_options
         .check()
@@ -151,9 +142,7 @@ fn main() {
     let fall = Fall::run(&body, &dry, &fluid, &release, &fall_options)
         .unwrap_or_else(|error| bad_value("--density/--size", error));
 
-    if let Some(path) = &options.csv {
-        cli::write(path, fall.csv());
-    }
+    options.csv.write(|| fall.csv());
     if let Some(path) = &options.svg {
         let chord = specimen.length;
         let picture = picture::fall(&fall.trajectory, chord);
@@ -163,6 +152,29 @@ fn main() {
         );
     }
     report(&options, &specimen, &fluid, &dry, &fall);
+    if filmed {
+        film(&options, &shaped.name, &specimen, dry.mass, &fall);
+    }
+}
+
+/// The fall as a page.
+fn film(options: &Options, name: &str, specimen: &Specimen, mass: f64, fall: &Fall) {
+    let mut scene = Scene::new(Default::default());
+    scene.world.gravity.y = -options.gravity as f32;
+    scene.kinds.push(Kind::seen(specimen.solid.clone(), mass));
+    scene.add_seen(0, [0.62, 0.24, 0.04]);
+    let recording = fall.recording(options.frame_rate.hertz);
+    let files = Film {
+        name: "drop",
+        title: &format!("{name}, let go"),
+        scene: &scene,
+        runs: &[("immersed", &recording)],
+        camera: None,
+    }
+    .write(&options.out, &options.filmed);
+    if !options.json.on {
+        println!("{}", wrote(&files));
+    }
 }
 
 /// Ends the program if the crate refuses the body, before any time is spent.
@@ -173,35 +185,41 @@ fn check(body: &ImmersedBody, dry: &DryMass, fluid: &Fluid) {
 }
 
 fn report(options: &Options, specimen: &Specimen, fluid: &Fluid, dry: &DryMass, fall: &Fall) {
+    /// Weightless bodies have numbers, too.
+    const GRAVITY: f64 = 9.81;
     let statistics = FallStatistics::of(&fall.trajectory);
     let density = dry.mass / specimen.volume;
     let viscosity = f64::from(fluid.kinematic_viscosity());
-    let u0 = specimen.u0(density, fluid, options.gravity);
+    let numbers = specimen
+        .numbers(density, fluid, GRAVITY)
+        .unwrap_or_else(|error| bad_value("--density/--size", error));
+    let u0 = numbers.u0 * (options.gravity / GRAVITY).sqrt();
     let reynolds = statistics.mean_descent.abs() * specimen.length / viscosity;
     let reynolds_u0 = u0 * specimen.length / viscosity;
-    let i_star = specimen.i_star(density, fluid);
-    if options.json {
+    let i_star = numbers.i_star;
+    let (seconds, dt) = (options.time.given(), options.step.given());
+    if options.json.on {
         let object = json!({
-            "mean_descent": statistics.mean_descent,
-            "mean_horizontal": statistics.mean_horizontal,
-            "rotation_rate": statistics.rotation_rate,
+            "mean_descent_mps": statistics.mean_descent,
+            "mean_horizontal_mps": statistics.mean_horizontal,
+            "rotation_rate_radps": statistics.rotation_rate,
             "flips": statistics.flips,
-            "tilt_amplitude": statistics.tilt_amplitude,
-            "frequency": statistics.frequency,
+            "tilt_amplitude_rad": statistics.tilt_amplitude,
+            "frequency_hz": statistics.frequency,
             "reynolds": reynolds,
             "reynolds_u0": reynolds_u0,
-            "u0": u0,
+            "u0_mps": u0,
             "i_star": i_star,
             "stable": fall.stable,
-            "mass": dry.mass,
-            "density": density,
-            "volume": specimen.volume,
-            "length": specimen.length,
-            "thickness": specimen.thickness,
-            "fluid_density": fluid.density(),
-            "viscosity": fluid.kinematic_viscosity(),
-            "dt": options.dt,
-            "seconds": options.seconds,
+            "mass_kg": dry.mass,
+            "density_kgpm3": density,
+            "volume_m3": specimen.volume,
+            "length_m": specimen.length,
+            "thickness_m": specimen.thickness,
+            "fluid_density_kgpm3": fluid.density(),
+            "viscosity_m2ps": fluid.kinematic_viscosity(),
+            "dt_s": dt,
+            "seconds_s": seconds,
         });
         println!("{object:#}");
         return;
@@ -220,7 +238,7 @@ fn report(options: &Options, specimen: &Specimen, fluid: &Fluid, dry: &DryMass, 
         ("length L", specimen.length, "m"),
         ("thickness t", specimen.thickness, "m"),
     ];
-    println!("second half of {} s:", options.seconds);
+    println!("second half of {seconds} s:");
     for (name, value, unit) in rows {
         println!("  {name:<24}{:>14} {unit}", format_number(value));
     }

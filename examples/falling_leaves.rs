@@ -3,15 +3,15 @@
 //!
 //! ```text
 //! cargo run --release --example falling_leaves
-//! cargo run --release --example falling_leaves -- --fluid water --leaves 100
+//! cargo run --release --example falling_leaves -- --fluid water --count 100
 //! cargo run --release --example falling_leaves -- --mesh my_leaf.obj --scale 0.001
 //! cargo run --release --example falling_leaves -- --wind 2 --turbulence 0.3
 //! cargo run --release --example falling_leaves -- --scene airplane
 //! ```
 //!
 //! Writes `frames.svg` (moments of the run), `trajectories.svg` (both runs, from the side and from
-//! above), `leaves.html` (plays in a browser; `--open` opens it), `leaves.glb` (the same for 3-D tools), `leaves.gif` and
-//! `summary.json`.
+//! above), `leaves.html` (plays in a browser; `--open` opens it), `leaves.glb` (the same for 3-D tools), `leaves.json` (numbers) and,
+//! with `--gif`, `leaves.gif`.
 
 mod support;
 
@@ -23,73 +23,63 @@ use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
 use rapier3d_immersed::turbulence::{LangevinMode, Turbulence, TurbulenceState, TurbulentLayer};
 use rapier3d_immersed::{Immersion, Warning, preset};
 use serde_json::{Value, json};
-use std::path::PathBuf;
 use support::airplane::Flight;
-use support::cli::{self, FluidName, bad_value};
+use support::cli::{self, FluidArgs, FluidName, bad_value};
+use support::film::{Film, FilmArgs, FrameRate};
 use support::leaf::{Blade, Outline};
+use support::options::{Count, Json, Material, Out, Seconds, Seed, TimeStep, Wind, wrote};
 use support::recording::{Plain, Recording, RunOptions, run};
 use support::scene::{Kind, Scene};
+use support::shape::MeshArgs;
 use support::summary::{Summary, table};
-use support::{Quat, Vec3, airplane, gallery, gif, glb, html, mesh};
+use support::{Quat, Vec3, airplane, gallery, mesh};
 
 /// Leaves and confetti fall on a floor with obstacles; the same scene in plain rapier beside it.
+///
+/// Without --count there are 300 leaves. Without --seconds, leaves take 7 s in air and 40 s in water, the airplane 4 s and 20 s. Without --density, leaves have 350 kg/m³
+/// in air and 1400 in water, the airplane 800 and 2000. Without --dt, a step is 1/240 s, as the leaf-scale preset has it. A --mesh
+/// takes the place of the built-in leaves.
 #[derive(Parser, Debug)]
 #[command(name = "falling_leaves", version, allow_negative_numbers = true)]
+#[command(mut_arg("seed", |seed| seed.default_value("7")))]
 struct Options {
     /// What falls
     #[arg(long, value_enum, default_value = "leaves")]
     scene: SceneName,
-    /// Number of leaves [default: 300]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
-    leaves: Option<u32>,
-    /// Number of pieces of confetti [default: a third of --leaves]
+    #[command(flatten)]
+    count: Count,
+    /// Number of pieces of confetti [default: a third of --count]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=20_000))]
     confetti: Option<u32>,
-    /// Simulated time, s [default: leaves 7 in air, 40 in water; airplane 4, 20]
-    #[arg(long, value_name = "S", value_parser = cli::positive)]
-    seconds: Option<f64>,
-    /// Fluid to fall through
-    #[arg(long, value_enum, default_value = "air")]
-    fluid: FluidName,
-    /// A leaf of your own, OBJ or STL in metres, instead of the built-in outlines: a closed solid, or
-    /// an open sheet that gets a thickness of 0.3 mm
-    #[arg(long, value_name = "FILE")]
-    mesh: Option<PathBuf>,
-    /// Factor for the coordinates of --mesh: 0.001 for millimetres
-    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = cli::positive)]
-    scale: f64,
-    /// Density of the leaves [default: 350 in air, 1400 in water] or of the airplane [default: 800 in
-    /// air, 2000 in water], kg/m³
-    #[arg(long, value_name = "KG/M3", value_parser = cli::positive)]
-    density: Option<f64>,
-    /// Seed of the leaves' release: places, attitudes, colours [default: 7]
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-    /// Wind along x, m/s at 2 m height, that grows with the logarithm of height
-    #[arg(long, value_name = "M/S", default_value = "0", value_parser = cli::not_negative)]
-    wind: f64,
+    #[command(flatten)]
+    time: Seconds,
+    #[command(flatten)]
+    fluid: FluidArgs,
+    #[command(flatten)]
+    mesh: MeshArgs,
+    #[command(flatten)]
+    material: Material,
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    wind: Wind,
     /// Turbulence: root mean square of the fluid's fluctuations over the wind speed, or over 1 m/s
     /// where the wind is less
     #[arg(long, value_name = "INTENSITY", default_value = "0", value_parser = cli::not_negative)]
     turbulence: f64,
-    /// Time step, s [default: 1/240, the leaf-scale preset]
-    #[arg(long, value_name = "S", value_parser = cli::positive)]
-    dt: Option<f64>,
-    /// Frames per second of the animation
-    #[arg(long, value_name = "HZ", default_value = "30", value_parser = cli::positive)]
-    frame_rate: f64,
+    #[command(flatten)]
+    step: TimeStep,
     /// Skip the run in plain rapier
     #[arg(long)]
     no_compare: bool,
-    /// Folder for the files
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
-    /// Show the animation in the browser
-    #[arg(long)]
-    open: bool,
-    /// Print the summary as one JSON object instead of a table
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    frame_rate: FrameRate,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// Scenes by name.
@@ -116,8 +106,9 @@ fn main() {
     let options: Options = cli::parse();
     check(&options);
     let seconds = options
+        .time
         .seconds
-        .unwrap_or(match (options.scene, options.fluid) {
+        .unwrap_or(match (options.scene, options.fluid.fluid) {
             (SceneName::Leaves, FluidName::Air) => 7.0,
             (SceneName::Leaves, FluidName::Water) => 40.0,
             (SceneName::Airplane, FluidName::Air) => 4.0,
@@ -126,13 +117,13 @@ fn main() {
     let kinds = kinds(&options);
     let mut scene = build(&options, &kinds);
     if scene.pieces.is_empty() {
-        bad_value("--leaves", "with --confetti 0 there has to be a leaf");
+        bad_value("--count", "with --confetti 0 there has to be a leaf");
     }
     let dt = f64::from(scene.world.integration_parameters.dt);
     if seconds / dt > 1e6 {
         bad_value("--seconds", "more than a million steps");
     }
-    let frames = seconds * options.frame_rate.min(1.0 / dt) * scene.pieces.len() as f64;
+    let frames = seconds * options.frame_rate.hertz.min(1.0 / dt) * scene.pieces.len() as f64;
     if frames > 2e7 {
         bad_value("--frame-rate", "more than 20 million poses to record");
     }
@@ -150,7 +141,7 @@ fn main() {
     stir(&mut immersion, &options);
     let run_options = RunOptions {
         seconds,
-        frame_rate: options.frame_rate,
+        frame_rate: options.frame_rate.hertz,
         // They take more memory than the poses.
         forces: frames < 1e6,
         message: "immersed",
@@ -180,44 +171,28 @@ fn main() {
     });
     let mut runs = vec![("immersed", &recording)];
     runs.extend(plain_run.iter().map(|plain| ("plain rapier", plain)));
-    let takes: Vec<&Recording> = runs.iter().map(|(_, recording)| *recording).collect();
-    let path = |name: &str| options.out.join(name);
-    let moving = |kind: &str| path(&format!("{}.{kind}", told.animation));
-    let page = moving("html");
-    let mut files = vec![
-        (path("frames.svg"), told.frames.into_bytes()),
-        (path("trajectories.svg"), told.trajectories.into_bytes()),
-        (page.clone(), html::page(&told.title, &scene, &runs).into()),
-        (moving("glb"), glb::animation(&scene, &recording)),
-        (path("summary.json"), format!("{json:#}\n").into_bytes()),
-    ];
-    // The airplane is too small to be seen in a picture of its whole flight.
-    if options.scene == SceneName::Leaves {
-        let path = moving("gif");
-        let gif = gif::animation(&scene, &takes)
-            .unwrap_or_else(|problem| cli::cannot_write(&path, problem));
-        files.push((path, gif));
-    }
-    for (path, content) in &files {
-        cli::write(path, content);
-    }
-    if options.json {
+    let film = Film {
+        name: told.animation,
+        title: &told.title,
+        scene: &scene,
+        runs: &runs,
+        camera: None,
+    };
+    let out = &options.out;
+    let mut files = film.write(out, &options.film);
+    files.push(out.write("frames.svg", told.frames));
+    files.push(out.write("trajectories.svg", told.trajectories));
+    files.push(out.write(&format!("{}.json", told.animation), format!("{json:#}\n")));
+    if options.json.on {
         println!("{json:#}");
     } else {
-        let fluid = match options.fluid {
+        let fluid = match options.fluid.fluid {
             FluidName::Air => "air",
             FluidName::Water => "water",
         };
         println!("{}, {seconds} s in {fluid}", told.title);
         print!("{}", told.table);
-        let names: Vec<String> = files
-            .iter()
-            .map(|(path, _)| path.display().to_string())
-            .collect();
-        println!("wrote {}", names.join(", "));
-    }
-    if options.open {
-        cli::open(&page);
+        println!("{}", wrote(&files));
     }
 }
 
@@ -228,20 +203,23 @@ fn stir(immersion: &mut Immersion, options: &Options) {
     const ROUGHNESS: f32 = 0.003;
     /// Size of the eddies, m: a room's.
     const EDDIES: f32 = 0.5;
-    if options.wind > 0.0 {
-        let speed = options.wind as f32;
+    if options.wind.speed > 0.0 {
+        let speed = options.wind.speed as f32;
         let wind = LogLaw::new(Vector::X, Vector::Y, speed, HEIGHT, ROUGHNESS);
         immersion.set_flow(wind.unwrap_or_else(|problem| bad_value("--wind", problem)));
     }
     if options.turbulence > 0.0 {
-        let (speed, intensity) = (options.wind.max(1.0) as f32, options.turbulence as f32);
+        let (speed, intensity) = (
+            options.wind.speed.max(1.0) as f32,
+            options.turbulence as f32,
+        );
         let state = TurbulenceState::from_intensity(speed, intensity, EDDIES);
         immersion.set_turbulence(TurbulentLayer {
             source: Turbulence::Homogeneous(
                 state.unwrap_or_else(|problem| bad_value("--turbulence", problem)),
             ),
             mode: LangevinMode::FluidSeen,
-            seed: options.seed.unwrap_or(7),
+            seed: options.seed.value,
         });
     }
 }
@@ -286,14 +264,11 @@ fn airplane_told(scene: &Scene, recording: &Recording, plain: Option<&Recording>
 
 /// Ends the program if an option is of no use in the scene.
 fn check(options: &Options) {
-    if options.scale != 1.0 && options.mesh.is_none() {
-        bad_value("--scale", "is for the coordinates of a --mesh");
-    }
+    options.count.check(0..=20_000);
     let only_leaves = [
-        ("--leaves", options.leaves.is_some()),
+        ("--count", options.count.count.is_some()),
         ("--confetti", options.confetti.is_some()),
-        ("--mesh", options.mesh.is_some()),
-        ("--seed", options.seed.is_some()),
+        ("--mesh", options.mesh.mesh.is_some()),
     ];
     if options.scene == SceneName::Airplane
         && let Some((flag, _)) = only_leaves.iter().find(|(_, given)| *given)
@@ -318,27 +293,22 @@ fn report_warnings(warnings: &[Warning]) {
 
 /// Leaves first, confetti last; or the airplane.
 fn kinds(options: &Options) -> Vec<Kind> {
-    let (leaf, paper) = match options.fluid {
+    let (leaf, paper) = match options.fluid.fluid {
         FluidName::Air => (350.0, 800.0),
         // Soaked leaves sink by 1 to 2 cm/s; these are of plastic, for the patience of the viewer.
         FluidName::Water => (1400.0, 2000.0),
     };
     if options.scene == SceneName::Airplane {
-        let kind = airplane::flying(options.density.unwrap_or(paper));
+        let kind = airplane::flying(options.material.density.unwrap_or(paper));
         return vec![kind.unwrap_or_else(|problem| bad_value("--density", problem))];
     }
-    let leaf = options.density.unwrap_or(leaf);
-    let mut kinds = match &options.mesh {
-        Some(path) => {
-            let problem = |text: String| -> ! {
-                bad_value("--mesh", format!("{}: {text}", path.display()));
-            };
-            let mut raw = mesh::load(path).unwrap_or_else(|text| bad_value("--mesh", text));
-            for vertex in &mut raw.vertices {
-                *vertex *= options.scale;
-            }
-            let solid = raw.solid(0.0003).unwrap_or_else(|text| problem(text));
-            let solid = mesh::aligned(&solid);
+    let leaf = options.material.density.unwrap_or(leaf);
+    let mut kinds = match options.mesh.load() {
+        Some(raw) => {
+            let problem = |text: String| -> ! { bad_value("--mesh", text) };
+            let raw = raw.unwrap_or_else(|text| problem(text));
+            let solid = raw.solid(options.mesh.sheet_thickness());
+            let solid = mesh::aligned(&solid.unwrap_or_else(|text| problem(text)));
             let size = solid.size();
             if !(1e-3..=1.0).contains(&size) {
                 problem(format!(
@@ -388,7 +358,7 @@ fn built_in(blade: &Blade, density: f64) -> Kind {
 fn build(options: &Options, kinds: &[Kind]) -> Scene {
     let mut world = PhysicsWorld::new();
     preset::leaf_scale(&mut world.integration_parameters);
-    if let Some(dt) = options.dt {
+    if let Some(dt) = options.step.dt {
         world.integration_parameters.dt = dt as f32;
     }
     if options.scene == SceneName::Airplane {
@@ -398,8 +368,8 @@ fn build(options: &Options, kinds: &[Kind]) -> Scene {
     scene.kinds = kinds.to_vec();
     furnish(&mut scene);
 
-    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(options.seed.unwrap_or(7));
-    let leaves = options.leaves.unwrap_or(300);
+    let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(options.seed.value);
+    let leaves = options.count.count.unwrap_or(300);
     let confetti = options.confetti.unwrap_or(leaves / 3);
     let count = leaves + confetti;
     let mut order: Vec<bool> = (0..count).map(|i| i < leaves).collect();
@@ -412,7 +382,7 @@ fn build(options: &Options, kinds: &[Kind]) -> Scene {
         .map(|kind| kind.solid.size())
         .fold(0.0, f64::max);
     let cell = (1.3 * size).max(0.11);
-    let (width, lowest, highest) = match options.fluid {
+    let (width, lowest, highest) = match options.fluid.fluid {
         FluidName::Air => (0.7, 0.9, 2.6),
         FluidName::Water => (1.4, 0.45, 0.8),
     };

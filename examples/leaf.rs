@@ -2,13 +2,23 @@
 //!
 //! ```text
 //! cargo run --release --example leaf
+//! cargo run --release --example leaf -- --open    # both play in the browser
 //! ```
 //!
-//! Printed every tenth of a second: how far the leaf has fallen and drifted and how far it is tilted, then how
-//! far plain rapier's has fallen; at the end, what the fluid changed.
+//! Printed every tenth of a second: how far each has fallen and drifted and how far it is tilted; at the end, what the fluid
+//! changed. Writes `leaf.html` and `leaf.glb`.
 
+mod support;
+
+use clap::Parser;
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Error, Fluid, HydroProperties, Immersion};
+use support::Vec3;
+use support::film::{FilmArgs, FrameRate};
+use support::options::{Json, Out, wrote};
+use support::reel::Reel;
+use support::series::{CsvArgs, Series};
+use support::sheet::Camera;
 
 const SECONDS: usize = 2;
 const STEPS_PER_SECOND: usize = 60;
@@ -39,10 +49,6 @@ impl Leaf {
         })
     }
 
-    fn step(&mut self) {
-        self.immersion.step(&mut self.world);
-    }
-
     fn body(&self) -> &RigidBody {
         &self.world.bodies[self.handle]
     }
@@ -60,27 +66,68 @@ impl Leaf {
     }
 }
 
+/// One leaf falls through air, and beside it the same leaf in plain rapier.
+#[derive(Parser)]
+#[command(name = "leaf", version)]
+struct Options {
+    #[command(flatten)]
+    frame_rate: FrameRate,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    csv: CsvArgs,
+    #[command(flatten)]
+    json: Json,
+}
+
 fn main() -> Result<(), Error> {
-    let (mut leaf, mut plain) = (Leaf::new(true)?, Leaf::new(false)?);
-    println!("          in air                          plain rapier");
-    println!("time, s   fallen, m   drifted, m   tilt   fallen, m");
-    for step in 0..=SECONDS * STEPS_PER_SECOND {
-        if step > 0 {
-            leaf.step();
-            plain.step();
+    let options: Options = support::cli::parse();
+    let columns = [
+        ("t", "s"),
+        ("fallen", "m"),
+        ("drifted", "m"),
+        ("tilt", "deg"),
+    ];
+    let mut series = Series::new("run", &columns);
+    let mut film = Reel::new(&Leaf::new(true)?.world, options.frame_rate.hertz);
+    let mut ends = Vec::new();
+    for (name, immersed) in [("in air", true), ("plain rapier", false)] {
+        let mut leaf = Leaf::new(immersed)?;
+        film.take(name, &leaf.world);
+        for step in 0..=SECONDS * STEPS_PER_SECOND {
+            if step > 0 {
+                leaf.immersion.step(&mut leaf.world);
+            }
+            film.keep(&leaf.world, Some(&leaf.immersion));
+            if step % (STEPS_PER_SECOND / 10) == 0 {
+                let time = step as Real / STEPS_PER_SECOND as Real;
+                let [fallen, drifted] = leaf.fallen_and_drifted();
+                series.push(name, &[time, fallen, drifted, leaf.tilt()].map(f64::from));
+            }
         }
-        if step % (STEPS_PER_SECOND / 10) == 0 {
-            let time = step as Real / STEPS_PER_SECOND as Real;
-            let [fallen, drifted] = leaf.fallen_and_drifted();
-            let (tilt, [brick, _]) = (leaf.tilt(), plain.fallen_and_drifted());
-            println!("{time:7.1} {fallen:11.2} {drifted:12.2} {tilt:5.0}° {brick:11.2}");
-        }
+        ends.push(leaf.fallen_and_drifted());
     }
-    let [fallen, drifted] = leaf.fallen_and_drifted();
-    let [brick, _] = plain.fallen_and_drifted();
+    // Plain rapier's is soon out of the picture, which is of the first meter and a half.
+    let camera = Camera {
+        eye: Vec3::new(0.8, -0.3, 2.6),
+        target: Vec3::new(0.0, -0.75, 0.0),
+        field_of_view: 0.66,
+    };
+    let title = ("leaf", "A leaf, let go");
+    let files = film.write(title, Some(camera), &options.out, &options.film);
+    options.csv.write(|| series.csv());
+    if options.json.on {
+        println!("{:#}", series.json());
+        return Ok(());
+    }
+    print!("{}", series.text());
+    let ([fallen, drifted], [brick, _]) = (ends[0], ends[1]);
     println!(
         "In {SECONDS} s the leaf falls {fallen:.2} m and drifts {drifted:.2} m; plain rapier drops it like a \
          brick: {brick:.1} m."
     );
+    println!("{}", wrote(&files));
     Ok(())
 }

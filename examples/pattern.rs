@@ -8,11 +8,15 @@
 //! Printed: for which share of the factors the leaf does what; the planned patterns with their times, and in
 //! how many of six slightly different releases they came out; then what the leaf did in rapier meanwhile.
 
-use rapier3d_immersed::motion::{Classifier, Moment, MotionGraph, Pattern};
+#[path = "support/replay.rs"]
+mod replay;
+
+use rapier3d_immersed::motion::{Classifier, MotionGraph, Pattern};
 use rapier3d_immersed::training::{
-    BodyInWorld, Experiment, Grid, Planner, PlannerParams, Subspaces, Sweep, thin_ellipsoid,
+    Experiment, Grid, Planner, PlannerParams, Subspaces, Sweep, thin_ellipsoid,
 };
-use rapier3d_immersed::{Error, Fluid, OnContact};
+use rapier3d_immersed::{Error, Fluid};
+use replay::{Dwell, replayed};
 use std::ops::ControlFlow;
 
 /// What is asked for.
@@ -38,8 +42,9 @@ fn main() -> Result<(), Error> {
 
     // Offline: what does it do for which factors? Each of the 6³ falls takes three seconds of its time.
     let mut sweep = Sweep::new(Grid::of_coefficients(6, 3.0)?);
-    let classifier = Classifier::default();
-    sweep.run_coefficients(&leaf, &classifier, |_, _| ControlFlow::Continue(()))?;
+    sweep.run_coefficients(&leaf, &Classifier::default(), |_, _| {
+        ControlFlow::Continue(())
+    })?;
     let subspaces = Subspaces::new(sweep.grid().clone(), sweep.patterns()?)?;
     println!("{} falls, factors from 0 to 3:", sweep.simulated());
     for (pattern, share) in Pattern::ALL.iter().zip(subspaces.volume_fractions()) {
@@ -50,34 +55,20 @@ fn main() -> Result<(), Error> {
     let planner = Planner::new(leaf.clone(), subspaces, &graph, PlannerParams::default())?;
     let plan = planner.plan_sequence(&SEQUENCE, SEED)?;
 
-    // At run time: a world of its own here; in yours, `immersion.play` is the one line.
-    let (body, release) = (leaf.body.clone(), leaf.release_state());
-    let mut world = BodyInWorld::new(
-        body,
-        &leaf.mass,
-        leaf.fluid,
-        &release,
-        leaf.dt,
-        leaf.gravity,
-    )?;
-    world
-        .immersion
-        .replay(world.handle, &plan.series, OnContact::Restart);
-    let steps = (plan.series.duration() / leaf.dt).round() as usize;
-    let moments: Vec<Moment> = (0..steps)
-        .map(|_| {
-            world.step();
-            world.state().moment(&leaf.body.hydro)
-        })
-        .collect();
+    // At run time.
+    let replayed = replayed(&leaf, &plan.series)?;
 
     println!("planned         from   to, s  came out in   in rapier: turns over, back, which is");
-    for ((pattern, from, to), report) in plan.series.dwell_times().into_iter().zip(&plan.dwells) {
-        let [first, last] = [from, to].map(|time| (time / leaf.dt).round() as usize);
-        let seen = classifier.observe(&moments[first..last.min(steps)]);
+    for (dwell, report) in replayed.dwells.iter().zip(&plan.dwells) {
+        let Dwell {
+            asked,
+            from,
+            to,
+            seen,
+        } = dwell;
         println!(
             "{:<14} {from:5.2} {to:7.2} {:>8} of {} {:>23} {:>5}  {}",
-            name(pattern),
+            name(*asked),
             report.shown,
             report.releases,
             seen.flips,
@@ -85,7 +76,7 @@ fn main() -> Result<(), Error> {
             name(seen.regime.into()),
         );
     }
-    let end = world.state().position;
+    let end = replayed.end.position;
     let drift = end.x.hypot(end.z);
     println!(
         "After {:.2} s it is {:.2} m down and {drift:.2} m aside.",

@@ -1,14 +1,20 @@
-//! A random sea from above, and its spectrum against the one that was asked for: a picture, nothing is printed.
+//! A random sea from above, and its spectrum against the one that was asked for: a picture.
 //!
 //! ```text
-//! cargo run --release --example sea -- sea.svg
+//! cargo run --release --example sea
 //! ```
+//!
+//! Writes `sea.svg`.
 
+mod support;
+
+use clap::Parser;
 use plotters::prelude::*;
 use rapier3d_immersed::free_surface::{FreeSurface, Sea, WaveSpectrum, Waves};
 use rustfft::{FftPlanner, num_complex::Complex64};
 use std::error::Error;
 use std::f64::consts::TAU;
+use support::options::{Out, wrote};
 
 const SAMPLES: usize = 8192;
 const STEP: f64 = 0.25;
@@ -43,8 +49,18 @@ fn density(sea: &Sea) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
     Ok(density.collect())
 }
 
+/// A random sea from above, and its spectrum against the one that was asked for.
+#[derive(Parser)]
+#[command(name = "sea", version)]
+struct Options {
+    #[command(flatten)]
+    out: Out,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args().nth(1).unwrap_or("sea.svg".to_owned());
+    let options: Options = support::cli::parse();
+    std::fs::create_dir_all(&options.out.folder)?;
+    let path = options.out.path("sea.svg");
     let spectrum = WaveSpectrum::jonswap(2.0, 6.0, 3.3)?;
     let sea = Sea {
         spectrum,
@@ -94,5 +110,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let dots = density(&sea)?.into_iter().filter(shown);
     chart.draw_series(dots.map(|point| Circle::new(point, 3, RED.filled())))?;
     root.present()?;
+    println!("{}", wrote(&[&path]));
     Ok(())
 }

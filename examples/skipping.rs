@@ -3,20 +3,41 @@
 //!
 //! ```text
 //! cargo run --release --example skipping
+//! cargo run --release --example skipping -- --open    # three throws in the browser
 //! ```
 //!
-//! Prints the counts and writes `out/skipping.svg`.
+//! Prints the counts and writes `skipping.svg`, `skipping.html` (three throws play in a browser) and `skipping.glb`.
 
 #[path = "support/draw.rs"]
 #[allow(dead_code, reason = "shared with other examples")]
 mod draw;
+mod support;
 
+use clap::Parser;
 use draw::{Item, Panel, Point};
 use plotters::style::RGBColor;
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Medium, ViscousLaw};
 use std::error::Error;
 use std::f32::consts::TAU;
+use support::Vec3;
+use support::film::{FilmArgs, FrameRate};
+use support::options::{Out, wrote};
+use support::reel::Reel;
+use support::sheet::Camera;
+
+/// Stones and discs that skip over water.
+#[derive(Parser)]
+#[command(name = "skipping", version)]
+#[command(mut_arg("frame_rate", |rate| rate.default_value("60")))]
+struct Options {
+    #[command(flatten)]
+    frame_rate: FrameRate,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+}
 
 /// A disc: radius and thickness, m, and density, kg/m³.
 #[derive(Clone, Copy)]
@@ -50,8 +71,13 @@ struct Throw {
     spin: f32,
 }
 
-/// How often it leaves the water again, until it sinks, under a law of the viscous force.
-fn skips(disc: Disc, throw: Throw, law: ViscousLaw, hertz: f32) -> usize {
+/// A disc as it is thrown, under a law of the viscous force.
+fn thrown(
+    disc: Disc,
+    throw: Throw,
+    law: ViscousLaw,
+    hertz: f32,
+) -> (PhysicsWorld, Immersion, RigidBodyHandle) {
     let mut world = PhysicsWorld::new();
     world.integration_parameters.dt = 1.0 / hertz;
     let tilt = Rotation::from_rotation_z(throw.attack);
@@ -67,6 +93,12 @@ fn skips(disc: Disc, throw: Throw, law: ViscousLaw, hertz: f32) -> usize {
     let body = ImmersedBody::new(hydro.expect("a disc"));
     let mut immersion = Immersion::new(Medium::layered(Fluid::AIR, Fluid::WATER));
     immersion.insert(stone, body.with_law(law).expect("a law of the crate"));
+    (world, immersion, stone)
+}
+
+/// How often it leaves the water again, until it sinks.
+fn skips(disc: Disc, throw: Throw, law: ViscousLaw, hertz: f32) -> usize {
+    let (mut world, mut immersion, stone) = thrown(disc, throw, law, hertz);
     let (mut count, mut was_wet) = (0, false);
     for _ in 0..(20.0 * hertz) as usize {
         immersion.step(&mut world);
@@ -132,7 +164,40 @@ fn counted() -> Panel {
     map
 }
 
+/// Three throws of the stone.
+fn film(options: &Options) -> Vec<std::path::PathBuf> {
+    let mut film: Option<Reel> = None;
+    for (name, attack, spin) in [
+        ("20° and spinning", 20_f32, 10.0),
+        ("20°, no spin", 20.0, 0.0),
+        ("40° and spinning", 40.0, 10.0),
+    ] {
+        let throw = Throw {
+            speed: 12.0,
+            impact: 15_f32.to_radians(),
+            attack: attack.to_radians(),
+            spin,
+        };
+        let (mut world, mut immersion, _) = thrown(STONE, throw, ViscousLaw::default(), 1000.0);
+        let film = film.get_or_insert_with(|| {
+            Reel::new(&world, options.frame_rate.hertz).with_water([60.0, 8.0])
+        });
+        film.take(name, &world);
+        film.shoot(&mut world, &mut immersion, 2.0);
+    }
+    let camera = Camera {
+        eye: Vec3::new(-1.6, 1.1, 3.2),
+        target: Vec3::new(2.4, 0.0, 0.0),
+        field_of_view: 0.66,
+    };
+    let title = ("skipping", "A flat stone of 200 g at 12 m/s");
+    let film = film.expect("throws were filmed");
+    film.write(title, Some(camera), &options.out, &options.film)
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
+    let options: Options = support::cli::parse();
+    let mut files = film(&options);
     let map = counted();
     let mut least = Panel::new(
         "least speed of a disc that skips: ours (blue), its impact alone (grey), measured (red)",
@@ -154,9 +219,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         least.items.push(Item::Line(curve, color, 2));
     }
     let svg = draw::svg("Skipping stones", &[map, least], 2, (720, 460))?;
-    std::fs::create_dir_all("out")?;
-    std::fs::write("out/skipping.svg", svg)?;
-    println!("wrote out/skipping.svg");
+    files.push(options.out.write("skipping.svg", svg));
+    println!("{}", wrote(&files));
     Ok(())
 }
 

@@ -7,10 +7,15 @@
 //! Printed for each air: how far downwind the leaves come to the ground on average, the nearest and the
 //! farthest of them, and how long they take.
 
+mod support;
+
+use clap::Parser;
 use rapier3d_immersed::flow::{Flow, Gust, Layers, LogLaw, Still, Uniform, Vortex};
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::turbulence::{Turbulence, TurbulenceState};
 use rapier3d_immersed::{Error, Fluid, HydroProperties, Immersion};
+use support::options::Json;
+use support::series::{CsvArgs, Series};
 
 const LEAVES: usize = 50;
 const HEIGHT: Real = 5.0;
@@ -57,19 +62,27 @@ fn landings(flow: impl Flow + 'static, turbulent: bool) -> Result<Vec<[Real; 2]>
     Ok(landed.into_iter().flatten().collect())
 }
 
-fn report(air: &str, landings: &[[Real; 2]]) {
+/// Leaves fall from a height of 5 m in still and moving air.
+#[derive(Parser)]
+#[command(name = "windy", version)]
+struct Options {
+    #[command(flatten)]
+    csv: CsvArgs,
+    #[command(flatten)]
+    json: Json,
+}
+
+/// How far downwind on average, the nearest and the farthest, m, and when on average, s.
+fn report(series: &mut Series, air: &str, landings: &[[Real; 2]]) {
     let mut downwind: Vec<Real> = landings.iter().map(|landing| landing[0]).collect();
     downwind.sort_by(Real::total_cmp);
     let [near, far] = [downwind[0], downwind[downwind.len() - 1]];
     let mean = |k: usize| landings.iter().map(|l| l[k]).sum::<Real>() / landings.len() as Real;
-    println!(
-        "{air:<28} {:8.2} {near:9.2} {far:10.2} {:8.2}",
-        mean(0),
-        mean(1)
-    );
+    series.push(air, &[mean(0), near, far, mean(1)].map(f64::from));
 }
 
 fn main() -> Result<(), Error> {
+    let options: Options = support::cli::parse();
     // 2 m/s at 5 m over grass, along x.
     let wind = LogLaw::new(Vector::X, Vector::Y, 2.0, HEIGHT, 0.03)?;
     let gust = Gust {
@@ -81,12 +94,25 @@ fn main() -> Result<(), Error> {
     let gusty = Layers::new().with(wind).with(gust);
     let vortex = Vortex::new(Vector::new(1.0, 2.5, 0.0), Vector::Z, 6.0, 0.5)?;
     let uniform = Uniform::new(2.0, 0.0, 0.0);
-    println!("air                          downwind, m: nearest   farthest   time, s");
-    report("still", &landings(Still, false)?);
-    report("2 m/s everywhere", &landings(uniform, false)?);
-    report("2 m/s at 5 m, over grass", &landings(wind, false)?);
-    report("… with turbulence", &landings(wind, true)?);
-    report("… with a gust of 4 m/s", &landings(gusty, false)?);
-    report("a vortex across their way", &landings(vortex, false)?);
+    let columns = [
+        ("downwind", "m"),
+        ("nearest", "m"),
+        ("farthest", "m"),
+        ("time", "s"),
+    ];
+    let mut series = Series::new("air", &columns);
+    let all = &mut series;
+    report(all, "still", &landings(Still, false)?);
+    report(all, "2 m/s everywhere", &landings(uniform, false)?);
+    report(all, "2 m/s at 5 m, over grass", &landings(wind, false)?);
+    report(all, "… with turbulence", &landings(wind, true)?);
+    report(all, "… with a gust of 4 m/s", &landings(gusty, false)?);
+    report(all, "a vortex across their way", &landings(vortex, false)?);
+    options.csv.write(|| series.csv());
+    if options.json.on {
+        println!("{:#}", series.json());
+    } else {
+        print!("{}", series.text());
+    }
     Ok(())
 }

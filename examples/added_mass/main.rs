@@ -3,71 +3,55 @@
 //! ```text
 //! cargo run --release --features bake,serde-serialize --example added_mass -- --shape box --size 0.2,0.1,0.01
 //! cargo run --release --features bake,serde-serialize --example added_mass -- --shape airplane
-//! cargo run --release --features bake,serde-serialize --example added_mass -- --mesh fish.obj --json
+//! cargo run --release --features bake,serde-serialize --example added_mass -- --mesh fish.obj --scale 0.001 --json
 //! cargo run --release --features bake,serde-serialize --example added_mass -- --figure
 //! ```
 
 mod case;
 mod error_figure;
-#[allow(dead_code)]
-#[path = "../support/mesh.rs"]
-mod mesh;
 mod picture;
 #[path = "../support/previous.rs"]
 mod previous;
 mod proxy;
+#[path = "../support/mod.rs"]
+mod support;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use rapier3d_immersed::boundary_element::{
     BoundaryElementParams, BoundaryElementProgress, BoundaryElementSolution,
 };
-use rapier3d_immersed::rapier3d::na::{Matrix3, Vector3};
-use std::path::PathBuf;
+use rapier3d_immersed::rapier3d::na::Matrix3;
 use std::process::ExitCode;
 use std::time::Instant;
-
-/// As `mesh` has it from the module above.
-type Vec3 = Vector3<f64>;
+use support::cli;
+use support::options::{Json, Out};
+use support::shape::{ShapeArgs, Shaped};
 
 /// Added mass per unit fluid density, about the center of mass of a body of even density.
 #[derive(Parser)]
+#[command(name = "added_mass", version)]
 struct Options {
-    /// Shape to solve for.
-    #[arg(long, value_enum, default_value = "leaf")]
-    shape: case::Kind,
-    /// Full extents in m, comma separated: x,y,z (box, ellipsoid, leaf), diameter,height (cylinder,
-    /// cone, capsule), diameter (ball), side,thickness (airplane).
-    #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
-    size: Vec<f64>,
-    /// A closed triangle mesh (OBJ or STL) instead of a shape.
-    #[arg(long)]
-    mesh: Option<PathBuf>,
-    /// Metres per unit of the mesh, such as 0.001 for millimetres [default: 1, up to 10 m].
-    #[arg(long, requires = "mesh", allow_negative_numbers = true)]
-    scale: Option<f64>,
-    /// The mesh is a sheet of this thickness, m, and need not be closed.
-    #[arg(long, requires = "mesh", allow_negative_numbers = true)]
-    thickness: Option<f64>,
-    /// Relative error to refine to.
-    #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
+    #[command(flatten)]
+    body: ShapeArgs,
+    /// Relative error to refine to
+    #[arg(long, value_name = "SHARE", default_value = "0.01", value_parser = cli::positive,
+          allow_negative_numbers = true)]
     tolerance: f64,
-    /// Most panels to use.
-    #[arg(long, default_value_t = 6000)]
+    /// Most panels to use
+    #[arg(long, value_name = "N", default_value = "6000")]
     max_panels: usize,
-    /// Print JSON, and draw nothing but the figure.
-    #[arg(long)]
-    json: bool,
-    /// Draw the error against thickness, ours beside plain quadrature (thesis, figure 5.2).
+    /// Draw the error against thickness, ours beside plain quadrature (thesis, figure 5.2)
     #[arg(long)]
     figure: bool,
-    /// Directory for the pictures.
-    #[arg(long, default_value = "out")]
-    out: PathBuf,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    json: Json,
 }
 
 fn main() -> ExitCode {
-    match run(&Options::parse()) {
+    match run(&cli::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("error: {message}");
@@ -77,29 +61,21 @@ fn main() -> ExitCode {
 }
 
 fn run(options: &Options) -> Result<(), String> {
-    let failed = |e: std::io::Error| format!("--out {}: {e}", options.out.display());
+    let folder = &options.out.folder;
+    let failed = |e: std::io::Error| format!("--out {}: {e}", folder.display());
     if options.figure {
-        std::fs::create_dir_all(&options.out).map_err(failed)?;
-        let picture = options.out.join("added_mass_error.svg");
-        return error_figure::draw(&picture, options.json);
+        std::fs::create_dir_all(folder).map_err(failed)?;
+        let picture = options.out.path("added_mass_error.svg");
+        return error_figure::draw(&picture, options.json.on);
     }
-    if options.tolerance.is_nan() || options.tolerance <= 0.0 {
-        return Err(format!(
-            "--tolerance {}: must be positive",
-            options.tolerance
-        ));
-    }
-    let case = match &options.mesh {
-        Some(path) => case::Case::load(path, options.scale, options.thickness)?,
-        None => case::Case::built_in(options.shape, &options.size)?,
-    };
+    let body = options.body.shaped();
     let params = BoundaryElementParams {
         tolerance: options.tolerance,
         max_panels: options.max_panels,
         ..BoundaryElementParams::default()
     };
     let start = Instant::now();
-    let bar = if options.json {
+    let bar = if options.json.on {
         ProgressBar::hidden()
     } else {
         let style = ProgressStyle::with_template("{msg:>14} {wide_bar} {percent:>3} %");
@@ -109,17 +85,17 @@ fn run(options: &Options) -> Result<(), String> {
         bar.set_message(format!("{} panels", p.panels));
         bar.set_position((p.share * 1000.0) as u64);
     };
-    let solution = case.solve(&params, &progress).map_err(|e| e.to_string())?;
+    let solution = case::solve(&body, &params, &progress).map_err(|e| e.to_string())?;
     let seconds = start.elapsed().as_secs_f64();
     bar.finish_and_clear();
-    if options.json {
-        println!("{:#}", json(&case, &solution));
+    if options.json.on {
+        println!("{:#}", json(&body, &solution));
         return Ok(());
     }
-    print(&case, &solution, seconds);
-    std::fs::create_dir_all(&options.out).map_err(failed)?;
-    let path = options.out.join(format!("added_mass_{}.svg", case.name));
-    picture::draw(&path, &case, &solution).map_err(|e| format!("--out: {e}"))?;
+    print(&body, &solution, seconds);
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    let path = options.out.path(&format!("added_mass_{}.svg", body.name));
+    picture::draw(&path, &body, &solution).map_err(|e| format!("--out: {e}"))?;
     println!("surface potential: {}", path.display());
     Ok(())
 }
@@ -128,22 +104,23 @@ fn rows(m: &Matrix3<f64>) -> Vec<Vec<f64>> {
     m.row_iter().map(|r| r.iter().copied().collect()).collect()
 }
 
-fn json(case: &case::Case, solution: &BoundaryElementSolution) -> serde_json::Value {
+fn json(body: &Shaped, solution: &BoundaryElementSolution) -> serde_json::Value {
     serde_json::json!({
-        "linear": rows(&solution.added_mass.linear),
-        "coupling": rows(&solution.added_mass.coupling),
-        "angular": rows(&solution.added_mass.angular),
-        "volume": case.volume(),
+        "linear_m3": rows(&solution.added_mass.linear),
+        "coupling_m4": rows(&solution.added_mass.coupling),
+        "angular_m5": rows(&solution.added_mass.angular),
+        "center_m": solution.center.as_slice(),
+        "volume_m3": case::volume(body),
         "error": solution.report.estimated_error,
         "panels": solution.report.panels,
     })
 }
 
-fn print(case: &case::Case, solution: &BoundaryElementSolution, seconds: f64) {
+fn print(body: &Shaped, solution: &BoundaryElementSolution, seconds: f64) {
     let (added, report) = (&solution.added_mass, &solution.report);
     println!(
         "{}: added mass per unit density about {:.5?} m",
-        case.name,
+        body.name,
         solution.center.as_slice()
     );
     for (name, unit, block) in [
@@ -160,7 +137,7 @@ fn print(case: &case::Case, solution: &BoundaryElementSolution, seconds: f64) {
         }
     }
     let percent = |e: Option<f64>| e.map_or("unknown".into(), |e| format!("{:.2} %", 100.0 * e));
-    println!("displaced volume {:.4e} m³", case.volume());
+    println!("displaced volume {:.4e} m³", case::volume(body));
     println!(
         "estimated error {}{}, asymmetry {:.0e}, {} panels, {seconds:.2} s",
         percent(report.estimated_error),
@@ -172,7 +149,7 @@ fn print(case: &case::Case, solution: &BoundaryElementSolution, seconds: f64) {
         report.asymmetry,
         report.panels,
     );
-    if let Some(error) = proxy::error(case, added) {
+    if let Some(error) = proxy::error(body, added) {
         println!(
             "proxy ellipsoid: {:.1} % off for translation, {:.1} % for rotation",
             100.0 * error.linear,

@@ -1,6 +1,7 @@
 //! The potential of the six unit motions on the surface of a body.
 
-use crate::case::Case;
+use crate::case;
+use crate::support::shape::Shaped;
 use plotters::prelude::*;
 use rapier3d_immersed::boundary_element::BoundaryElementSolution;
 use rapier3d_immersed::rapier3d::na::Vector3;
@@ -32,17 +33,17 @@ fn color(value: f64) -> RGBColor {
 
 pub fn draw(
     path: &Path,
-    case: &Case,
+    body: &Shaped,
     solution: &BoundaryElementSolution,
 ) -> Result<(), Box<dyn Error>> {
     let root = SVGBackend::new(path, (1200, 860)).into_drawing_area();
     root.fill(&WHITE)?;
-    let what = if case.is_sheet() {
+    let what = if case::is_sheet(body) {
         "jump of the potential, front minus back"
     } else {
         "potential in the fluid"
     };
-    let title = format!("{}: {what} ({} panels)", case.name, solution.report.panels);
+    let title = format!("{}: {what} ({} panels)", body.name, solution.report.panels);
     let root = root.titled(&title, ("sans-serif", 26))?;
     let (root, legend) = root.split_vertically(770);
     let label = |x| move |text| Text::new(text, (x, 14), ("sans-serif", 17));

@@ -4,12 +4,11 @@ use crate::righting::{Vessel, heeled};
 use crate::seakeeping::{Record, Voyage};
 use crate::support::recording::Recording;
 use crate::support::scene::{Kind, Scene, convex_outline, pose_parts};
-use crate::support::{Quat, Vec3, glb, html};
+use crate::support::{Quat, Vec3};
+use rapier3d_immersed::Error;
 use rapier3d_immersed::free_surface::FreeSurface;
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::prelude::*;
-use rapier3d_immersed::{DryMass, Error, HydroProperties, ImmersedBody};
-use std::sync::Arc;
 
 /// Samples of the record that are shown, and the sea's tiles along a side, and their size, m.
 const FRAMES: usize = 400;
@@ -19,25 +18,23 @@ const TILE: f64 = 1.0;
 const WATER: [f32; 3] = [0.05, 0.16, 0.22];
 const PAINT: [f32; 3] = [0.60, 0.10, 0.06];
 
-/// The first 40 s as a `.glb` file and as a page. The sea is of tiles that go up and down and tilt with it.
+/// The first 40 s: what is seen, and how it moved. The sea is of tiles that go up and down and tilt with it.
 ///
 /// # Errors
 /// Those of [`Voyage::sea`].
-pub fn animation(vessel: &Vessel, record: &Record, voyage: &Voyage) -> Result<[Vec<u8>; 2], Error> {
+pub fn animation(
+    vessel: &Vessel,
+    record: &Record,
+    voyage: &Voyage,
+) -> Result<(Scene, Recording), Error> {
     let tile = SharedShape::cuboid(0.5 * TILE as f32, 0.01, 0.5 * TILE as f32);
     let mut scene = Scene::new(PhysicsWorld::new());
-    let hull = SharedShape::ball(0.1);
-    scene
-        .kinds
-        .push(seen(vessel.hull.clone(), vessel.dry, hull));
-    let flat = DryMass::of_shape(tile.as_ref(), 1.0)?;
-    scene
-        .kinds
-        .push(seen(Surface::from_shape(tile.as_ref())?, flat, tile));
-    let at_rest = (Vec3::zeros(), Quat::identity());
-    scene.add_piece(0, PAINT, at_rest, Vec3::zeros(), |body| body);
+    let hull = Kind::seen(vessel.hull.clone(), vessel.dry.mass);
+    let tile = Kind::seen(Surface::from_shape(tile.as_ref())?, 1.0);
+    scene.kinds.extend([hull, tile]);
+    scene.add_seen(0, PAINT);
     for _ in 0..TILES * TILES {
-        scene.add_piece(1, WATER, at_rest, Vec3::zeros(), |body| body);
+        scene.add_seen(1, WATER);
     }
 
     let sea = voyage.sea()?;
@@ -63,26 +60,9 @@ pub fn animation(vessel: &Vessel, record: &Record, voyage: &Voyage) -> Result<[V
     let recording = Recording {
         times: record.times[..shown].iter().map(|t| t - start).collect(),
         frames: moments.map(frame).collect(),
-        forces: Vec::new(),
-        fates: Vec::new(),
-        falling_step: 0.0,
-        landed_step: 0.0,
-        wall_time: 0.0,
+        ..Recording::default()
     };
-    let page = html::page("A boat in a sea", &scene, &[("boat", &recording)]);
-    Ok([glb::animation(&scene, &recording), page.into()])
-}
-
-/// A kind of piece to look at alone.
-fn seen(solid: Surface, dry: DryMass, collision: SharedShape) -> Kind {
-    let hydro = HydroProperties::from_surface(&solid, dry.center);
-    Kind {
-        body: Arc::new(ImmersedBody::new(hydro)),
-        dry,
-        collision,
-        solid: Arc::new(solid),
-        outline: Arc::new(Vec::new()),
-    }
+    Ok((scene, recording))
 }
 
 /// The silhouette from ahead, z and y in m, of the vessel as high as it floats at this heel.

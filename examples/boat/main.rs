@@ -5,8 +5,8 @@
 //! cargo run --release --example boat -- --hull mine.obj --center 0.1 --wave-height 0.5 --wave-period 4
 //! ```
 //!
-//! Writes `boat.svg` (righting levers and motions), `boat.glb` (an animation for 3-D tools), `boat.html` (a page that plays
-//! it) and `summary.json`.
+//! Writes `boat.svg` (righting levers and motions), `boat.html` (a page that plays its first 40 s at sea), `boat.glb` (the same for
+//! 3-D tools), `boat.json` (numbers) and, with `--gif`, `boat.gif`.
 
 #[path = "../support/draw.rs"]
 #[allow(dead_code, reason = "shared with other examples")]
@@ -26,11 +26,15 @@ use righting::{Vessel, vanishing};
 use seakeeping::{Record, Voyage, response, significant};
 use serde_json::json;
 use std::path::PathBuf;
+use support::film::{Film, FilmArgs};
+use support::options::{Json, Out, Seconds, Seed, wrote};
 use support::{cli, mesh};
 
 /// A hull from a file: its righting curve, and its motions in a random sea.
 #[derive(Parser, Debug)]
 #[command(name = "boat", version, allow_negative_numbers = true)]
+#[command(mut_arg("seconds", |seconds| seconds.default_value("600")))]
+#[command(mut_arg("seed", |seed| seed.default_value("7")))]
 struct Options {
     /// Closed hull, OBJ or STL in metres: x forward, y up from the waterline that it floats at, z to starboard
     /// [default: Wigley's, 4 m]
@@ -48,15 +52,16 @@ struct Options {
     /// Angle between the bow and the waves' way at first, degrees
     #[arg(long, value_name = "DEG", default_value = "60", value_parser = cli::finite)]
     heading: f64,
-    /// Simulated time at sea, s
-    #[arg(long, value_name = "S", default_value = "600", value_parser = cli::positive)]
-    seconds: f64,
-    /// Seed of the sea
-    #[arg(long, value_name = "N", default_value = "7")]
-    seed: u64,
-    /// Folder for the files
-    #[arg(long, value_name = "DIR", default_value = "out/boat")]
-    out: PathBuf,
+    #[command(flatten)]
+    time: Seconds,
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    json: Json,
 }
 
 const OURS: RGBColor = RGBColor(30, 90, 200);
@@ -120,6 +125,13 @@ fn barge() -> Levers {
 
 fn main() {
     let options: Options = cli::parse();
+    macro_rules! say {
+        ($($words:tt)*) => {
+            if !options.json.on {
+                println!($($words)*);
+            }
+        };
+    }
     let own = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/boat/wigley.obj");
     let path = options.hull.clone().unwrap_or(own.into());
     let hull = mesh::load(&path).and_then(|raw| raw.solid(0.0));
@@ -139,7 +151,7 @@ fn main() {
     let most = levers.ours.iter().copied().fold(0.0, f64::max);
     let turns = [&levers.ours, &levers.exact]
         .map(|curve| vanishing(&levers.heels, curve).map(f64::to_degrees));
-    println!(
+    say!(
         "{}: {:.0} kg, {} triangles",
         path.display(),
         vessel.dry.mass,
@@ -147,18 +159,18 @@ fn main() {
     );
     if options.hull.is_none() {
         let (found, exact) = (vessel.dry.mass / 997.0, wigley::DINGHY.displacement());
-        println!("volume under water {found:.4} m³, {exact:.4} of the hull without facets");
+        say!("volume under water {found:.4} m³, {exact:.4} of the hull without facets");
     }
-    println!(
+    say!(
         "righting lever: {most:.4} m at most, {:.1e} m off soundings at most",
         levers.worst()
     );
-    println!(
+    say!(
         "  vanishes at {:.2}° of heel, by soundings {:.2}°",
         turns[0].unwrap_or(f64::NAN),
         turns[1].unwrap_or(f64::NAN)
     );
-    println!(
+    say!(
         "a barge: {:.1e} m off sin θ (GM + ½ BM tan² θ) at most",
         barge.worst()
     );
@@ -166,9 +178,9 @@ fn main() {
     let voyage = Voyage {
         height: options.wave_height,
         period: options.wave_period,
-        seed: options.seed,
+        seed: options.seed.value,
         heading: options.heading.to_radians(),
-        seconds: options.seconds,
+        seconds: options.time.given(),
     };
     let record = voyage.record(&vessel);
     let record =
@@ -177,22 +189,25 @@ fn main() {
     let [roll, pitch] =
         [&record.roll, &record.pitch].map(|series| significant(series).to_degrees());
     let follows = response(&record.elevation, &record.heave);
-    println!(
+    say!(
         "{} s in waves of {} m and {} s:",
-        options.seconds, options.wave_height, options.wave_period
+        voyage.seconds,
+        options.wave_height,
+        options.wave_period
     );
-    println!(
+    say!(
         "  significant: sea at the boat {elevation:.3} m, heave {heave:.3} m, roll {roll:.1}°, pitch {pitch:.1}°"
     );
-    println!(
+    say!(
         "  own periods: heave {:.2} s, roll {:.2} s",
-        record.periods[0], record.periods[1]
+        record.periods[0],
+        record.periods[1]
     );
-    println!("  heave over the sea's height, by frequency:");
+    say!("  heave over the sea's height, by frequency:");
     for (frequency, share) in follows.iter().step_by(2) {
-        println!("    {frequency:.3} Hz {share:.2}");
+        say!("    {frequency:.3} Hz {share:.2}");
     }
-    println!(
+    say!(
         "  under water {:.0} to {:.0} % of the volume; {:.0} µs a step",
         100.0 * record.submerged[1],
         100.0 * record.submerged[0],
@@ -215,31 +230,33 @@ fn main() {
     );
     let picture = picture.unwrap_or_else(|problem| cli::cannot_write("boat.svg".as_ref(), problem));
     let summary = json!({
-        "mass": vessel.dry.mass,
-        "largest_lever": most,
-        "lever_error": levers.worst(),
-        "vanishing_heel": turns,
-        "barge_lever_error": barge.worst(),
-        "significant": {"sea": elevation, "heave": heave, "roll_degrees": roll, "pitch_degrees": pitch},
-        "periods": {"heave": record.periods[0], "roll": record.periods[1]},
-        "heave_response": follows,
+        "mass_kg": vessel.dry.mass,
+        "largest_lever_m": most,
+        "lever_error_m": levers.worst(),
+        "vanishing_heel_deg": turns,
+        "barge_lever_error_m": barge.worst(),
+        "significant": {"sea_m": elevation, "heave_m": heave, "roll_deg": roll, "pitch_deg": pitch},
+        "periods": {"heave_s": record.periods[0], "roll_s": record.periods[1]},
+        "heave_response_by_frequency_hz": follows,
         "step_us": record.step,
     });
-    let film = film::animation(&vessel, &record, &voyage);
-    let [film, page] =
-        film.unwrap_or_else(|problem| cli::cannot_write("boat.glb".as_ref(), problem));
-    for (name, content) in [
-        ("boat.svg", picture.into_bytes()),
-        ("boat.glb", film),
-        ("boat.html", page),
-        ("summary.json", format!("{summary:#}\n").into_bytes()),
-    ] {
-        cli::write(&options.out.join(name), content);
+    let (scene, recording) = film::animation(&vessel, &record, &voyage)
+        .unwrap_or_else(|problem| cli::cannot_write("boat.glb".as_ref(), problem));
+    let film = Film {
+        name: "boat",
+        title: "A boat in a sea",
+        scene: &scene,
+        runs: &[("boat", &recording)],
+        camera: None,
+    };
+    let mut files = film.write(&options.out, &options.film);
+    files.push(options.out.write("boat.svg", picture));
+    files.push(options.out.write("boat.json", format!("{summary:#}\n")));
+    if options.json.on {
+        println!("{summary:#}");
+    } else {
+        println!("{}", wrote(&files));
     }
-    println!(
-        "wrote {}/{{boat.html, boat.svg, boat.glb, summary.json}}",
-        options.out.display()
-    );
 }
 
 /// The boat from ahead at four heels, as it floats then.

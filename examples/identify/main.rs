@@ -3,12 +3,13 @@
 //!
 //! ```text
 //! cargo run --release --example identify -- --model card
+//! cargo run --release --example identify -- --model card --track fall.csv
 //! ```
 //!
-//! Reads a CSV file as from a tracked video (seconds, metres with the vertical last, radians) with the
-//! header `t,x,y,angle` (plate) or `t,x,y,z,qx,qy,qz,qw` (card: center and orientation, the long axis along
-//! the body's x, the normal along its z). Without one it makes a track with noise and says how far off
-//! the result is. Draws data, fit and residual into `identify.svg`.
+//! Reads a table as from a tracked video, y up, with the columns `t_s,x_m,y_m,angle_rad` (plate) or `t_s,x_m,y_m,z_m,qx,qy,qz,qw`
+//! (card: center and orientation, the long axis along the body's x, the normal along its z) among whatever others: the example
+//! `drop` writes such a one of a `--shape leaf` with `--csv`. Without a track it makes one with noise and says how far off the result is.
+//! Draws data, fit and residual into `identify.svg`.
 
 mod card;
 #[path = "../reduced_models/chart.rs"]
@@ -17,6 +18,8 @@ mod chart;
 #[path = "../reduced_models/free_fall.rs"]
 mod free_fall;
 mod model;
+#[path = "../support/mod.rs"]
+mod support;
 
 use chart::{COLORS, Mark, Panel, SeriesLabelPosition, draw};
 use clap::{Parser, ValueEnum};
@@ -24,9 +27,11 @@ use model::Model;
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal};
 use rapier3d_immersed::reduced::{Fit, FitParams, fit};
-use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
+use support::options::{Json, Out, Seed};
+use support::track::TrackArgs;
+use support::{Vec3, cli};
 
 /// What is identified.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -39,45 +44,40 @@ enum ModelName {
 
 /// Identify the coefficients of a falling body from its track.
 #[derive(Parser)]
-#[command(allow_negative_numbers = true)]
+#[command(name = "identify", version, allow_negative_numbers = true)]
 struct Arguments {
-    /// Which motion to look for.
+    /// Which motion to look for
     #[arg(long, value_enum, default_value = "plate")]
     model: ModelName,
-    /// CSV file with the header t,x,y,angle (plate; s, m, m, rad) or t,x,y,z,qx,qy,qz,qw (card).
-    /// Without it a track is made up.
-    #[arg(long)]
-    csv: Option<PathBuf>,
-    /// Plate: I* = ρ_s b / (ρ_f a), b its half thickness, a its half chord.
-    #[arg(long, default_value_t = 0.5)]
+    #[command(flatten)]
+    track: TrackArgs,
+    /// Plate: I* = ρ_s b / (ρ_f a), b its half thickness, a its half chord
+    #[arg(long, value_name = "I", default_value = "0.5", value_parser = cli::positive)]
     inertia_ratio: f64,
-    /// Plate: half chord a, m.
-    #[arg(long, default_value_t = 1.0)]
-    length: f64,
-    /// Plate: √((ρ_s/ρ_f − 1) g b), m/s.
-    #[arg(long, default_value_t = 1.0)]
-    speed: f64,
-    /// Card: ρ_s/ρ_f.
-    #[arg(long, default_value_t = 667.0)]
+    /// Plate: its chord 2 a, m
+    #[arg(long, value_name = "M", default_value = "2", value_parser = cli::positive)]
+    chord: f64,
+    /// Plate: √((ρ_s/ρ_f − 1) g b), m/s
+    #[arg(long, value_name = "M/S", default_value = "1", value_parser = cli::positive)]
+    velocity_scale: f64,
+    /// Card: ρ_s/ρ_f
+    #[arg(long, value_name = "RATIO", default_value = "667", value_parser = cli::positive)]
     density_ratio: f64,
-    /// Card: semi-axes, m; the fluid is air.
-    #[arg(long, value_delimiter = ',', default_value = "0.035,0.02,0.0002")]
-    semi_axes: Vec<f64>,
-    /// Standard deviation of the data as a fraction of each coordinate's range.
-    #[arg(long, default_value_t = 0.01)]
+    /// Card, a thin ellipsoid: its length,width,thickness, m; the fluid is air
+    #[arg(long, value_name = "A,B,C", default_value = "0.07,0.04,0.0004", value_parser = cli::vector)]
+    card: Vec3,
+    /// Standard deviation of the data as a fraction of each coordinate's range
+    #[arg(long, value_name = "SHARE", default_value = "0.01", value_parser = cli::positive)]
     noise: f64,
-    /// Number of frames of the track that is made up.
-    #[arg(long, default_value_t = 600)]
+    /// Number of frames of the track that is made up
+    #[arg(long, value_name = "N", default_value = "600")]
     frames: usize,
-    /// Seed of its noise and of the search.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Directory for the picture.
-    #[arg(long, default_value = "out")]
-    out: PathBuf,
-    /// Print the result as JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// Times, s from the first, and rows of the model's columns.
@@ -87,75 +87,18 @@ struct Track {
 }
 
 fn read(text: &str, model: &Model) -> Result<Track, String> {
-    let mut lines = text.lines();
-    let (header, expected) = (lines.next().unwrap_or_default().trim(), model.header);
-    if header != expected {
-        return Err(format!(
-            "--csv: the header is '{header}' instead of '{expected}'"
-        ));
+    let (times, data) = (model.read)(text)?;
+    if times.len() < 20 {
+        return Err(format!("{} rows are fewer than 20", times.len()));
     }
-    let mut track = Track {
-        times: Vec::new(),
-        data: Vec::new(),
-    };
-    let fields = expected.split(',').count();
-    for (number, line) in lines
-        .enumerate()
-        .filter(|(_, line)| !line.trim().is_empty())
-    {
-        let place = number + 2;
-        let row: Result<Vec<f64>, _> = line
-            .split(',')
-            .map(|field| field.trim().parse::<f64>())
-            .collect();
-        let row = row.map_err(|error| format!("--csv: line {place}: {error}"))?;
-        if row.len() != fields || row.iter().any(|x| !x.is_finite()) {
-            return Err(format!(
-                "--csv: line {place} is not {fields} finite numbers"
-            ));
-        }
-        track.times.push(row[0]);
-        let data = (model.row)(&row[1..])
-            .ok_or_else(|| format!("--csv: line {place}: the quaternion is zero"))?;
-        track.data.extend(data);
-    }
-    if track.times.len() < 20 {
-        return Err(format!(
-            "--csv: {} rows are fewer than 20",
-            track.times.len()
-        ));
-    }
-    if let Some(row) = track.times.windows(2).position(|pair| pair[0] >= pair[1]) {
-        return Err(format!(
-            "--csv: the times do not increase at line {}",
-            row + 3
-        ));
-    }
-    let first = track.times[0];
-    track.times.iter_mut().for_each(|t| *t -= first);
-    Ok(track)
+    let first = times[0];
+    let times = times.iter().map(|t| t - first).collect();
+    Ok(Track { times, data })
 }
 
 fn check(arguments: &Arguments) -> Result<(), String> {
-    for (flag, value) in [
-        ("--inertia-ratio", arguments.inertia_ratio),
-        ("--length", arguments.length),
-        ("--speed", arguments.speed),
-        ("--density-ratio", arguments.density_ratio),
-        ("--noise", arguments.noise),
-    ] {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(format!("{flag}: {value} is not positive and finite"));
-        }
-    }
-    if arguments.semi_axes.len() != 3 {
-        let count = arguments.semi_axes.len();
-        return Err(format!("--semi-axes: {count} lengths instead of 3"));
-    }
-    for x in &arguments.semi_axes {
-        if !(*x > 0.0 && x.is_finite()) {
-            return Err(format!("--semi-axes: {x} is not positive and finite"));
-        }
+    if let Some(x) = arguments.card.iter().find(|x| **x <= 0.0) {
+        return Err(format!("--card: {x} is no length"));
     }
     if !(20..=100_000).contains(&arguments.frames) {
         return Err(format!(
@@ -184,7 +127,7 @@ fn made_up(arguments: &Arguments, model: &Model) -> Result<Track, String> {
         .collect();
     let mut data = vec![0.0; columns * frames];
     (model.simulate)(model.truth, &times, &mut data);
-    let mut random = rand_pcg::Pcg64::seed_from_u64(arguments.seed);
+    let mut random = rand_pcg::Pcg64::seed_from_u64(arguments.seed.value);
     let widths = widths(&data, columns, arguments.noise);
     for (datum, width) in data.iter_mut().zip(widths.iter().cycle()) {
         let noise = Normal::new(0.0, *width).map_err(|e| format!("--noise: {e}"))?;
@@ -196,18 +139,19 @@ fn made_up(arguments: &Arguments, model: &Model) -> Result<Track, String> {
 fn run(arguments: &Arguments) -> Result<(), String> {
     check(arguments)?;
     let model = match arguments.model {
-        ModelName::Plate => {
-            model::plate(arguments.inertia_ratio, arguments.length, arguments.speed)
+        ModelName::Plate => model::plate(
+            arguments.inertia_ratio,
+            0.5 * arguments.chord,
+            arguments.velocity_scale,
+        ),
+        ModelName::Card => {
+            let semi_axes = (0.5 * arguments.card).into();
+            model::card(semi_axes, arguments.density_ratio)
+                .map_err(|error| format!("--card, --density-ratio: {error}"))?
         }
-        ModelName::Card => model::card(&arguments.semi_axes, arguments.density_ratio)
-            .map_err(|error| format!("--semi-axes, --density-ratio: {error}"))?,
     };
-    let track = match &arguments.csv {
-        Some(path) => {
-            let text = std::fs::read_to_string(path)
-                .map_err(|e| format!("--csv: {}: {e}", path.display()))?;
-            read(&text, &model)?
-        }
+    let track = match arguments.track.text() {
+        Some(text) => read(&text, &model).map_err(|problem| format!("--track: {problem}"))?,
         None => made_up(arguments, &model)?,
     };
     let columns = model.columns.len();
@@ -216,7 +160,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     let params = FitParams {
         stages: vec![0.15, 0.3, 0.6, 1.0],
         row: columns,
-        seed: arguments.seed,
+        seed: arguments.seed.value,
         ..FitParams::default()
     };
     let clock = Instant::now();
@@ -227,7 +171,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         &(model.ranges)(&track.data),
         &params,
     )
-    .map_err(|error| format!("--csv: {error}"))?;
+    .map_err(|error| format!("--track: {error}"))?;
     let seconds = clock.elapsed().as_secs_f64();
     picture(arguments, &model, &track, &result, &widths)?;
     report(arguments, &model, &result, seconds);
@@ -235,8 +179,8 @@ fn run(arguments: &Arguments) -> Result<(), String> {
 }
 
 fn report(arguments: &Arguments, model: &Model, result: &Fit, seconds: f64) {
-    let truth = arguments.csv.is_none().then_some(model.truth);
-    if arguments.json {
+    let truth = arguments.track.track.is_none().then_some(model.truth);
+    if arguments.json.on {
         let parameters: serde_json::Map<String, serde_json::Value> = model
             .parameters
             .iter()
@@ -255,7 +199,7 @@ fn report(arguments: &Arguments, model: &Model, result: &Fit, seconds: f64) {
             "reduced_residual": result.reduced_residual,
             "converged": result.converged,
             "evaluations": result.evaluations,
-            "seconds": seconds,
+            "wall_time_s": seconds,
         });
         println!("{all:#}");
         return;
@@ -341,20 +285,20 @@ fn picture(
             bar.to_vec(),
         );
     }
-    if arguments.csv.is_none() {
+    if arguments.track.track.is_none() {
         let truth = (0..model.coefficients)
             .map(|k| (k as f64 + 1.0, model.truth[k] / result.parameters[k]));
         ratio.add("truth", chart::BLACK, Mark::Dots, truth.collect());
     }
-    std::fs::create_dir_all(&arguments.out)
-        .map_err(|e| format!("--out: {}: {e}", arguments.out.display()))?;
-    let file = arguments.out.join("identify.svg");
+    let folder = &arguments.out.folder;
+    std::fs::create_dir_all(folder).map_err(|e| format!("--out: {}: {e}", folder.display()))?;
+    let file = arguments.out.path("identify.svg");
     draw(&file, 2, &[path, attitude, residual, ratio])
         .map_err(|e| format!("--out: {}: {e}", file.display()))
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
+    match run(&cli::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("{message}");

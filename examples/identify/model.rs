@@ -2,25 +2,25 @@
 
 use crate::card;
 use crate::free_fall::{Law, Specimen};
-use rapier3d_immersed::rapier3d::na::{Quaternion, UnitQuaternion};
+use crate::support::track::{Table, Track, ascending};
+use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
 use rapier3d_immersed::reduced::FallingPlate;
 use rapier3d_immersed::reduced::Tolerances;
 use rapier3d_immersed::{Error, Fluid};
+use std::f64::consts::FRAC_PI_2;
 
 /// Writes rows at the times for these parameters, as many as fit.
 type Simulate = Box<dyn Fn(&[f64], &[f64], &mut [f64])>;
-/// A row of data from one of the file without its time.
-type Row = fn(&[f64]) -> Option<Vec<f64>>;
+/// Times and rows of data from a table.
+type Read = fn(&str) -> Result<(Vec<f64>, Vec<f64>), String>;
 /// (low, high) of each parameter.
 type Ranges = Box<dyn Fn(&[f64]) -> Vec<(f64, f64)>>;
 
 /// A motion to look for in a track.
 pub struct Model {
-    /// Of its CSV file.
-    pub header: &'static str,
-    /// Of the data that rows of the file become.
+    /// Of the data that rows of a table become.
     pub columns: &'static [&'static str],
-    pub row: Row,
+    pub read: Read,
     /// The coefficients of the force come first.
     pub parameters: &'static [&'static str],
     pub coefficients: usize,
@@ -70,9 +70,14 @@ pub fn plate(inertia_ratio: f64, length: f64, speed: f64) -> Model {
         ]
     };
     Model {
-        header: "t,x,y,angle",
         columns: &["x", "y", "angle"],
-        row: |row| Some(row.to_vec()),
+        read: |text| {
+            let table = Table::read(text)?;
+            let [t, x, y, angle] = table.columns(["t", "x", "y", "angle"])?;
+            ascending(t)?;
+            let rows = (0..t.len()).flat_map(|i| [x[i], y[i], angle[i]]);
+            Ok((t.to_vec(), rows.collect()))
+        },
         parameters: &[
             "C_T", "C_R", "A", "B", "mu", "u0", "v0", "omega0", "angle0", "x0", "y0",
         ],
@@ -103,23 +108,25 @@ pub fn plate(inertia_ratio: f64, length: f64, speed: f64) -> Model {
 ///
 /// # Errors
 /// If its shape or mass cannot be.
-pub fn card(semi_axes: &[f64], density_ratio: f64) -> Result<Model, Error> {
+pub fn card(semi_axes: [f64; 3], density_ratio: f64) -> Result<Model, Error> {
     let air = Fluid::new(1.2, 1.5e-5)?;
-    let semi_axes = [semi_axes[0], semi_axes[1], semi_axes[2]];
     let specimen = Specimen::new(semi_axes, air, Law::Thesis)?;
     specimen.body(&[1.0, 1.0, 1.0, density_ratio])?;
     let simulate = move |p: &[f64], times: &[f64], out: &mut [f64]| {
         card::simulate(&specimen, density_ratio, p, times, out);
     };
-    let row = |row: &[f64]| {
-        let quaternion = Quaternion::new(row[6], row[3], row[4], row[5]);
-        let orientation = UnitQuaternion::try_new(quaternion, 1e-6)?;
-        Some(card::measured([row[0], row[1], row[2]], &orientation).to_vec())
+    let read = |text: &str| {
+        let track = Track::read(text)?;
+        // The vertical is y in a track and z here.
+        let upright = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
+        let rows = track.places.iter().zip(&track.turns);
+        let rows = rows
+            .flat_map(|(place, turn)| card::measured((upright * place).into(), &(upright * turn)));
+        Ok((track.times.clone(), rows.collect()))
     };
     Ok(Model {
-        header: "t,x,y,z,qx,qy,qz,qw",
         columns: &card::COLUMNS,
-        row,
+        read,
         parameters: &card::PARAMETERS,
         coefficients: 3,
         ranges: Box::new(card::ranges),

@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! cargo run --release --example machines -- windmill
-//! cargo run --release --example machines -- all      # every one of them
+//! cargo run --release --example machines -- boomerang --open    # plays in the browser
+//! cargo run --release --example machines -- all                 # every one of them
 //! ```
 //!
-//! Each writes `out/machines/NAME.svg` and prints what it did beside what it should do. Each is one file here, of the
-//! body and its parts first.
+//! Each writes `NAME.svg`, `NAME.html` (plays in a browser) and `NAME.glb` (the same for 3-D tools), and prints what it did beside
+//! what it should do. Each is one file here, of the body and its parts first.
 
 mod anemometer;
 mod arrow;
@@ -21,18 +22,48 @@ mod frisbee;
 mod glider;
 mod kite;
 mod parachute;
+mod reels;
 mod rov;
 mod shuttlecock;
 mod stage;
+#[path = "../support/mod.rs"]
+mod support;
 mod twig;
 mod weather_vane;
 mod windmill;
 
+use clap::Parser;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use film::Shown;
-use std::path::Path;
 use std::process::ExitCode;
+use support::cli;
+use support::film::{FilmArgs, FrameRate};
+use support::options::Out;
 
 type Failure = Box<dyn std::error::Error>;
+
+/// Machines that air and water drive.
+#[derive(Parser)]
+#[command(name = "machines", version)]
+#[command(mut_arg("out", |out| out.default_value("out/machines")))]
+struct Options {
+    /// Which of them, or all
+    #[arg(value_name = "NAME", required = true, value_parser = PossibleValuesParser::new(names()))]
+    names: Vec<String>,
+    #[command(flatten)]
+    frame_rate: FrameRate,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+}
+
+/// What can be asked for, with what it is.
+fn names() -> Vec<PossibleValue> {
+    let machines = MACHINES.iter();
+    let machines = machines.map(|(name, what, _)| PossibleValue::new(*name).help(*what));
+    machines.chain([PossibleValue::new("all")]).collect()
+}
 
 /// A machine: its name, what it is, and its run.
 type Machine = (&'static str, &'static str, fn() -> Result<Shown, Failure>);
@@ -98,33 +129,28 @@ const MACHINES: &[Machine] = &[
 ];
 
 fn main() -> ExitCode {
-    let wanted = std::env::args().nth(1).unwrap_or_default();
-    let chosen: Vec<_> = MACHINES
-        .iter()
-        .filter(|(name, ..)| wanted == "all" || wanted == *name)
-        .collect();
-    if chosen.is_empty() {
-        eprintln!("machines NAME, where NAME is one of:");
-        for (name, what, _) in MACHINES {
-            eprintln!("  {name:14} {what}");
-        }
-        eprintln!("  all");
-        return ExitCode::FAILURE;
-    }
-    for (name, what, show) in chosen {
+    let options: Options = cli::parse();
+    let asked = |name: &str| options.names.iter().any(|own| own == name || own == "all");
+    for (name, what, show) in MACHINES.iter().filter(|(name, ..)| asked(name)) {
         println!("{name}: {what}");
-        let path = format!("out/machines/{name}.svg");
-        let written = show().and_then(|shown| {
-            for line in &shown.lines {
-                println!("  {line}");
-            }
-            film::write(Path::new(&path), &shown)
-        });
+        let written = show().and_then(|shown| write(name, what, &shown, &options));
         if let Err(problem) = written {
             eprintln!("{name}: {problem}");
             return ExitCode::FAILURE;
         }
-        println!("  → {path}");
     }
     ExitCode::SUCCESS
+}
+
+fn write(name: &str, what: &str, shown: &Shown, options: &Options) -> Result<(), Failure> {
+    for line in &shown.lines {
+        println!("  {line}");
+    }
+    let reel = reels::reel(name, options.frame_rate.hertz)?;
+    let mut files = reel.write((name, what), None, &options.out, &options.film);
+    let picture = options.out.path(&format!("{name}.svg"));
+    film::write(&picture, shown)?;
+    files.push(picture);
+    println!("  {}", support::options::wrote(&files));
+    Ok(())
 }

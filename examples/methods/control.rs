@@ -4,15 +4,16 @@ use crate::Failure;
 use crate::method::Method;
 use crate::mover::{Mover, apart, empty, fly, player};
 use crate::prepared::Prepared;
-use crate::subject::{GRAVITY, Start};
+use crate::subject::Start;
+use crate::support::replay::replayed;
 use crate::support::{Vec3, from_rapier, to_rapier};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
+use rapier3d_immersed::RapierSets;
 use rapier3d_immersed::motion::path::MotionPath;
 use rapier3d_immersed::motion::{Classifier, Moment, Pattern, Regime, Sketch, Trajectory};
 use rapier3d_immersed::rapier3d::prelude::RigidBodyBuilder;
-use rapier3d_immersed::training::{BodyInWorld, FollowParams, Release};
-use rapier3d_immersed::{OnContact, RapierSets};
+use rapier3d_immersed::training::{FollowParams, Release};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -125,28 +126,10 @@ fn planned(prepared: &Prepared, seed: u64) -> Result<Vec<bool>, Failure> {
     let plan = prepared
         .planner
         .plan_sequence(&[Pattern::Zigzag, Pattern::Autorotation], seed)?;
-    let leaf = prepared.subject.experiment();
-    let release = leaf.release_state();
-    let (body, mass) = (leaf.body.clone(), &leaf.mass);
-    let mut world = BodyInWorld::new(body, mass, leaf.fluid, &release, leaf.dt, GRAVITY)?;
-    let handle = world.handle;
-    world
-        .immersion
-        .replay(handle, &plan.series, OnContact::Restart);
-    let steps = (plan.series.duration() / leaf.dt).round() as usize;
-    let moments: Vec<Moment> = (0..steps)
-        .map(|_| {
-            world.step();
-            world.state().moment(&leaf.body.hydro)
-        })
-        .collect();
-    let dwells = plan.series.dwell_times().into_iter();
+    let replayed = replayed(&prepared.subject.experiment(), &plan.series)?;
+    let dwells = replayed.dwells.iter();
     Ok(dwells
-        .map(|(pattern, from, to)| {
-            let [first, last] = [from, to].map(|time| (time / leaf.dt).round() as usize);
-            let seen = Classifier::default().observe(&moments[first..last.min(steps)]);
-            Pattern::from(seen.regime) == pattern
-        })
+        .map(|dwell| Pattern::from(dwell.seen.regime) == dwell.asked)
         .collect())
 }
 

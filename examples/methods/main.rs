@@ -8,7 +8,7 @@
 //! * A table: time and memory per body, what is made beforehand, falls of paper (24 mm circles) beside the measured ones of
 //!   `tests/data/paper`, and for each of the thesis's seven criteria a number beside its tick.
 //! * `methods.svg`: a leaf by each method, every 1/15 s, to one scale.
-//! * `methods.html`, `methods.gif`: nine leaves by each, side by side in the order of the table.
+//! * `methods.html` and, with `--gif`, `methods.gif`: nine leaves by each, side by side in the order of the table.
 //! * `scoring.html`: the questionnaire of § 7.2 with films in random order. It sends nothing; answers are saved as CSV, and
 //!   E of (7.1) is computed from one's own and others' files.
 //!
@@ -42,10 +42,11 @@ use method::Method;
 use prepared::Prepared;
 use rapier3d_immersed::motion::MotionGraph;
 use report::Row;
-use std::path::PathBuf;
 use std::process::ExitCode;
 use subject::Subject;
 use support::cli;
+use support::film::FilmArgs;
+use support::options::{Json, Out};
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
@@ -53,15 +54,15 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 #[derive(Parser)]
 #[command(name = "methods", version)]
 struct Options {
-    /// Folder for the files
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
     /// Measure nothing, only draw
     #[arg(long)]
     films_only: bool,
-    /// Print the numbers as JSON instead of tables
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 fn main() -> ExitCode {
@@ -82,7 +83,7 @@ fn run(options: &Options) -> Result<(), Failure> {
     if !options.films_only {
         let measured = measured::means()?;
         let rows = measure(&leaf, &paper, &measured)?;
-        if options.json {
+        if options.json.on {
             println!("{:#}", report::json(&rows, &measured));
         } else {
             print!("{}", table::table(&rows, &measured));
@@ -117,11 +118,16 @@ fn measure(leaf: &Prepared, paper: &Prepared, measured: &Means) -> Result<Vec<Ro
 }
 
 fn draw(options: &Options, leaf: &Prepared, paper: &Prepared) -> Result<(), Failure> {
-    let path = |name: &str| options.out.join(name);
+    let path = |name: &str| options.out.path(name);
     cli::write(&path("methods.svg"), picture::strip(leaf)?);
     let films = picture::films(leaf)?;
     cli::write(&path("methods.html"), &films.page);
-    cli::write(&path("methods.gif"), &films.gif);
+    if options.film.gif {
+        cli::write(&path("methods.gif"), &films.gif);
+    }
+    if options.film.open {
+        cli::open(&path("methods.html"));
+    }
     let tracks = tracks::films(paper)?;
     let mut leaves = films.each;
     let judged: Vec<scoring::Film> = tracks

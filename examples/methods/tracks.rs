@@ -96,11 +96,7 @@ fn film(scene: &Scene, way: &Way) -> Result<Vec<u8>, Failure> {
     let recording = Recording {
         frames: times.iter().map(frame).collect(),
         times,
-        forces: Vec::new(),
-        fates: Vec::new(),
-        falling_step: 0.0,
-        landed_step: 0.0,
-        wall_time: 0.0,
+        ..Recording::default()
     };
     let camera = Camera::overview(&[Vec3::new(-0.3, 0.0, -0.3), Vec3::new(0.6, 0.95, 0.3)]);
     Ok(gif::side_by_side(&[(scene, &recording)], &camera, RATE)?)

@@ -24,32 +24,32 @@ use serde_json::json;
 use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use support::cli;
+use support::options::{Count, Json, Out, Seed};
 use training::Trained;
 
-/// Draws the phase diagram and the figures of thesis chapter 5.
+/// Draws the phase diagram, with a body of your own on it, and the figures of thesis chapter 5; --count leaves fall from its tree.
 #[derive(Parser)]
-#[command(name = "patterns")]
+#[command(name = "patterns", version)]
+#[command(mut_arg("count", |count| count.default_value("12")))]
+#[command(mut_arg("density", |density| density.default_value("400")))]
 struct Arguments {
-    /// Directory for the pictures
-    #[arg(long, default_value = "out")]
-    out: PathBuf,
+    #[command(flatten)]
+    out: Out,
     #[command(flatten)]
     body: phase::BodyArguments,
-    /// Seed of everything random
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Leaves that fall from the tree
-    #[arg(long, default_value_t = 12)]
-    leaves: u64,
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    count: Count,
     /// Only the phase diagram
     #[arg(long)]
     phase_only: bool,
     /// Also count the labels that the time step and the release change (half a minute)
     #[arg(long)]
     step_error: bool,
-    /// Print numbers as JSON instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// Where pictures and words go.
@@ -91,20 +91,10 @@ pub fn bar(steps: u64, message: &'static str) -> ProgressBar {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::try_parse().unwrap_or_else(|error| {
-        if !error.use_stderr() {
-            error.exit();
-        }
-        let text = error.to_string();
-        eprintln!("{}", text.lines().next().unwrap_or_default());
-        std::process::exit(2)
-    });
-    if arguments.leaves == 0 || arguments.leaves > 1000 {
-        eprintln!("error: --leaves must be from 1 to 1000");
-        return ExitCode::from(2);
-    }
-    if let Err(error) = std::fs::create_dir_all(&arguments.out) {
-        eprintln!("error: --out {}: {error}", arguments.out.display());
+    let arguments: Arguments = cli::parse();
+    arguments.count.check(1..=1000);
+    if let Err(error) = std::fs::create_dir_all(&arguments.out.folder) {
+        eprintln!("error: --out {}: {error}", arguments.out.folder.display());
         return ExitCode::FAILURE;
     }
     match run(&arguments) {
@@ -125,14 +115,14 @@ fn default_leaf() -> Result<Experiment, Error> {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Error> {
-    let seed = arguments.seed;
+    let seed = arguments.seed.value;
     let context = Context {
-        out: arguments.out.clone(),
-        quiet: arguments.json,
+        out: arguments.out.folder.clone(),
+        quiet: arguments.json.on,
     };
     let phase = phase::draw(&context, &arguments.body)?;
     if arguments.phase_only {
-        if arguments.json {
+        if arguments.json.on {
             println!("{:#}", json!({ "phase": phase }));
         }
         return Ok(());
@@ -188,7 +178,7 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
         "fig_5_13": falls::effects(&context, seed)?,
         "fig_5_14": fig_5_14,
         "fig_5_15": fig_5_15,
-        "fig_5_16": falls::tree(&context, &planner, seed, arguments.leaves)?,
+        "fig_5_16": falls::tree(&context, &planner, seed, arguments.count.within(1..=1000).into())?,
         "sketches": falls::sketches(&context, &free_leaf, seed)?,
         "step_error": if arguments.step_error {
             json!([training::step_error(&card)?, training::step_error(&free_leaf)?])
@@ -196,10 +186,10 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
             json!(null)
         },
     });
-    if arguments.json {
+    if arguments.json.on {
         println!("{numbers:#}");
     } else {
-        println!("pictures are in {}", arguments.out.display());
+        println!("pictures are in {}", arguments.out.folder.display());
     }
     Ok(())
 }

@@ -2,57 +2,25 @@
 
 use crate::Context;
 use crate::draw::{Item, Panel};
-use clap::{Args, ValueEnum};
+use crate::support::cli::{self, FluidArgs};
+use crate::support::options::Material;
+use crate::support::shape::ShapeArgs;
+use crate::support::specimen::Specimen;
+use clap::Args;
 use plotters::style::RGBColor;
-use rapier3d_immersed::motion::{DimensionlessNumbers, Outline, PhaseDiagram, Regime};
-use rapier3d_immersed::{Error, Fluid};
+use rapier3d_immersed::Error;
+use rapier3d_immersed::motion::{PhaseDiagram, Regime};
 use serde_json::{Value, json};
-
-#[derive(Clone, Copy, ValueEnum)]
-enum FluidName {
-    Air,
-    Water,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum OutlineName {
-    Round,
-    Rectangular,
-}
 
 /// The user's body.
 #[derive(Args)]
 pub struct BodyArguments {
-    /// Shorter in-plane extent of your body, or its diameter, m
-    #[arg(
-        long,
-        value_name = "M",
-        default_value_t = 0.042,
-        allow_negative_numbers = true
-    )]
-    length: f64,
-    /// Its thickness, m
-    #[arg(
-        long,
-        value_name = "M",
-        default_value_t = 0.0003,
-        allow_negative_numbers = true
-    )]
-    thickness: f64,
-    /// Its density, kg/m³
-    #[arg(
-        long,
-        value_name = "KG/M3",
-        default_value_t = 400.0,
-        allow_negative_numbers = true
-    )]
-    density: f64,
-    /// Its outline
-    #[arg(long, value_enum, default_value = "round")]
-    outline: OutlineName,
-    /// What it falls through
-    #[arg(long, value_enum, default_value = "air")]
-    fluid: FluidName,
+    #[command(flatten)]
+    shape: ShapeArgs,
+    #[command(flatten)]
+    material: Material,
+    #[command(flatten)]
+    fluid: FluidArgs,
 }
 
 fn shade(regime: Regime) -> RGBColor {
@@ -67,17 +35,11 @@ fn shade(regime: Regime) -> RGBColor {
 }
 
 pub fn draw(context: &Context, arguments: &BodyArguments) -> Result<Value, Error> {
-    let fluid = match arguments.fluid {
-        FluidName::Air => Fluid::AIR,
-        FluidName::Water => Fluid::WATER,
-    };
-    let outline = match arguments.outline {
-        OutlineName::Round => Outline::Round,
-        OutlineName::Rectangular => Outline::Rectangular,
-    };
-    let (length, thickness) = (arguments.length, arguments.thickness);
-    let numbers =
-        DimensionlessNumbers::new(outline, length, thickness, arguments.density, &fluid, 9.81)?;
+    let fluid = arguments.fluid.fluid();
+    let body = Specimen::new(&arguments.shape.shaped())
+        .unwrap_or_else(|problem| cli::bad_value("--shape/--size", problem));
+    let density = arguments.material.density.expect("it has a default");
+    let numbers = body.numbers(density, &fluid, 9.81)?;
     let descent = numbers.broadside_descent();
     let reynolds = numbers.reynolds();
     let diagram = PhaseDiagram::default();

@@ -3,11 +3,11 @@
 //!
 //! ```text
 //! cargo run --release --example pond
-//! cargo run --release --example pond -- --leaves 200 --wind 3 --seconds 60
+//! cargo run --release --example pond -- --count 200 --wind 3 --seconds 60
 //! ```
 //!
-//! Writes `pond.html` (a page that plays it), `pond.svg` (moments of it), `pond.glb` (an animation for 3-D tools) and
-//! `summary.json`.
+//! Writes `pond.html` (a page that plays it), `pond.svg` (moments of it), `pond.glb` (an animation for 3-D tools), `pond.json`
+//! (numbers) and, with `--gif`, `pond.gif`.
 
 mod scene;
 #[path = "../support/mod.rs"]
@@ -18,37 +18,41 @@ use rapier3d_immersed::rapier3d::prelude::PhysicsWorld;
 use rapier3d_immersed::{Immersion, RapierSets};
 use scene::{Channel, Count, Pond};
 use serde_json::json;
-use std::path::PathBuf;
 use std::time::Instant;
+use support::film::{Film, FilmArgs, FrameRate};
+use support::options::{Count as Leaves, Json, Out, Seconds, Seed, Wind, wrote};
 use support::recording::{RunOptions, Stepper, run};
 use support::sheet::{Camera, contact_sheet};
-use support::{Vec3, cli, glb, html};
+use support::{Vec3, cli};
 
 /// Leaves rain on a pond with a current, two banks, a breeze and a log.
 #[derive(Parser, Debug)]
 #[command(name = "pond", version)]
+#[command(mut_arg("count", |count| count.default_value("1000")))]
+#[command(mut_arg("seconds", |seconds| seconds.default_value("40")))]
+#[command(mut_arg("seed", |seed| seed.default_value("7")))]
+#[command(mut_arg("wind", |wind| wind.default_value("0.6")))]
+#[command(mut_arg("frame_rate", |rate| rate.default_value("15")))]
 struct Options {
-    /// Number of leaves
-    #[arg(long, value_name = "N", default_value = "1000", value_parser = clap::value_parser!(u32).range(1..=5000))]
-    leaves: u32,
-    /// Simulated time, s
-    #[arg(long, value_name = "S", default_value = "40", value_parser = cli::positive)]
-    seconds: f64,
-    /// Seed of the leaves' release
-    #[arg(long, value_name = "N", default_value = "7")]
-    seed: u64,
-    /// Breeze at a height of 2 m, m/s
-    #[arg(long, value_name = "M/S", default_value = "0.6", value_parser = cli::not_negative)]
-    wind: f64,
+    #[command(flatten)]
+    count: Leaves,
+    #[command(flatten)]
+    time: Seconds,
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    wind: Wind,
     /// Current in the middle of the pond, m/s
     #[arg(long, value_name = "M/S", default_value = "0.12", value_parser = cli::not_negative)]
     current: f64,
-    /// Frames per second of the animation
-    #[arg(long, value_name = "HZ", default_value = "15", value_parser = cli::positive)]
-    frame_rate: f64,
-    /// Folder for the files
-    #[arg(long, value_name = "DIR", default_value = "out/pond")]
-    out: PathBuf,
+    #[command(flatten)]
+    frame_rate: FrameRate,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// An immersion whose steps are timed.
@@ -73,18 +77,19 @@ impl Stepper for Timed<'_> {
 
 fn main() {
     let options: Options = cli::parse();
+    let (leaves, seconds) = (options.count.within(1..=5000), options.time.given());
     let pond = Pond {
-        leaves: options.leaves as usize,
-        seed: options.seed,
+        leaves: leaves as usize,
+        seed: options.seed.value,
         current: options.current,
-        wind: options.wind,
+        wind: options.wind.speed,
     };
     let built = pond.build();
     let (mut scene, mut immersion) =
         built.unwrap_or_else(|problem| cli::bad_value("--wind/--current", problem));
     let run_options = RunOptions {
-        seconds: options.seconds,
-        frame_rate: options.frame_rate,
+        seconds,
+        frame_rate: options.frame_rate.hertz,
         message: "pond",
         forces: false,
     };
@@ -102,22 +107,26 @@ fn main() {
         speed: options.current as f32,
     };
     let count = Count::of(&scene, &immersion, &current);
-    let steps = options.seconds / f64::from(scene.world.integration_parameters.dt);
+    let steps = seconds / f64::from(scene.world.integration_parameters.dt);
     let cost = times.map(|time| 1e9 * time / steps / scene.pieces.len() as f64);
     let [drift, water] = count.drift;
-    println!("{} leaves, {} s", options.leaves, options.seconds);
-    println!("  in the air          {:6}", count.falling);
-    println!("  ashore              {:6}", count.ashore);
-    println!("  afloat              {:6}", count.afloat);
-    println!("    against the log   {:6}", count.at_log);
-    println!("    touching nothing  {:6}", count.free);
-    println!("  sunk                {:6}", count.sunk);
-    println!("  asleep              {:6}", count.asleep);
-    println!("drift of those that touch nothing {drift:.3} m/s, of the water there {water:.3} m/s");
-    println!(
-        "{:.0} ns per body and step, and {:.0} of rapier's own; {:.1} s",
-        cost[0], cost[1], recording.wall_time
-    );
+    if !options.json.on {
+        println!("{leaves} leaves, {seconds} s");
+        println!("  in the air          {:6}", count.falling);
+        println!("  ashore              {:6}", count.ashore);
+        println!("  afloat              {:6}", count.afloat);
+        println!("    against the log   {:6}", count.at_log);
+        println!("    touching nothing  {:6}", count.free);
+        println!("  sunk                {:6}", count.sunk);
+        println!("  asleep              {:6}", count.asleep);
+        println!(
+            "drift of those that touch nothing {drift:.3} m/s, of the water there {water:.3} m/s"
+        );
+        println!(
+            "{:.0} ns per body and step, and {:.0} of rapier's own; {:.1} s",
+            cost[0], cost[1], recording.wall_time
+        );
+    }
 
     let camera = Camera {
         eye: Vec3::new(-2.6, 2.1, 2.3),
@@ -129,7 +138,7 @@ fn main() {
         target: Vec3::new(1.12, -0.02, 0.05),
         field_of_view: 0.72,
     };
-    let end = options.seconds;
+    let end = seconds;
     let moments = [0.0, 1.6, 0.15 * end].map(|time| (time, camera));
     let moments = [
         &moments[..],
@@ -139,7 +148,8 @@ fn main() {
     let strip = contact_sheet(&scene, &recording, &moments, 3, (720, 480));
     let strip = strip.unwrap_or_else(|problem| cli::cannot_write("pond.svg".as_ref(), problem));
     let summary = json!({
-        "leaves": options.leaves,
+        "leaves": leaves,
+        "seconds_s": seconds,
         "falling": count.falling,
         "ashore": count.ashore,
         "afloat": count.afloat,
@@ -147,25 +157,24 @@ fn main() {
         "free": count.free,
         "sunk": count.sunk,
         "asleep": count.asleep,
-        "drift": drift,
-        "current_there": water,
-        "ns_per_body_step": cost[0],
-        "ns_of_rapier": cost[1],
+        "drift_mps": drift,
+        "current_there_mps": water,
+        "per_body_and_step_ns": cost[0],
+        "rapier_per_body_and_step_ns": cost[1],
     });
-    let files = [
-        ("pond.svg", strip.into_bytes()),
-        ("pond.glb", glb::animation(&scene, &recording)),
-        (
-            "pond.html",
-            html::page("Leaves on a pond", &scene, &[("pond", &recording)]).into(),
-        ),
-        ("summary.json", format!("{summary:#}\n").into_bytes()),
-    ];
-    for (name, content) in &files {
-        cli::write(&options.out.join(name), content);
+    let film = Film {
+        name: "pond",
+        title: "Leaves on a pond",
+        scene: &scene,
+        runs: &[("pond", &recording)],
+        camera: None,
+    };
+    let mut files = film.write(&options.out, &options.film);
+    files.push(options.out.write("pond.svg", strip));
+    files.push(options.out.write("pond.json", format!("{summary:#}\n")));
+    if options.json.on {
+        println!("{summary:#}");
+    } else {
+        println!("{}", wrote(&files));
     }
-    println!(
-        "wrote {}/{{pond.html, pond.svg, pond.glb, summary.json}}",
-        options.out.display()
-    );
 }

@@ -3,10 +3,11 @@
 
 use crate::errors::{Errors, Truth};
 use crate::horizon::{HORIZONS, TOLERANCES, parameters, plate, reduced, release_angle, start};
+use crate::rates;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d_immersed::reduced::{
-    DeimEvolution, DeimParams, PiecewiseLinear, Snapshot, Tolerances, integrate,
+    DeimEvolution, DeimParams, PiecewiseLinear, Snapshot, Tolerances,
 };
 use std::error::Error;
 use std::f64::consts::PI;
@@ -79,11 +80,6 @@ pub fn piecewise_linear(
     range: (f64, f64),
     truth: &Truth,
 ) -> Result<(Errors, serde_json::Value), Box<dyn Error>> {
-    let model = |z: &[f64], out: &mut [f64]| {
-        let mut rate = [0.0; 6];
-        plate(&z[4..]).rate(&[z[0], z[1], z[2], z[3], 0.0, 0.0], &mut rate);
-        out.copy_from_slice(&rate[..5]);
-    };
     let end = HORIZONS[HORIZONS.len() - 1];
     let times: Vec<f64> = (0..=(end * PER_UNIT) as usize)
         .map(|i| i as f64 / PER_UNIT)
@@ -95,7 +91,7 @@ pub fn piecewise_linear(
     });
     // The state by its range; the parameters, which do little, by ten of theirs.
     let scales = [2.5, 1.6, 1.6, PI, 1.2, PI, 1.4, 10.0 * (range.1 - range.0)];
-    let linear = PiecewiseLinear::bake(input, &scales, 0.03, (5, 4000), model)?;
+    let linear = PiecewiseLinear::bake(input, &scales, 0.03, (5, 4000), rates::exact)?;
     let loose = Tolerances {
         relative: 1e-4,
         absolute: 1e-4,
@@ -103,24 +99,10 @@ pub fn piecewise_linear(
     };
     let (mut evaluations, clock) = (0_u32, Instant::now());
     let errors = truth.errors(|p, horizons| {
-        let mut x = [0.0; 5];
-        x[..4].copy_from_slice(&start(p[4])[..4]);
-        let mut now = 0.0;
-        let mut rate = |_: f64, x: &[f64], out: &mut [f64]| {
-            let (inside, sign) = reduced(x);
-            let point = [&inside[..], &p[..4]].concat();
-            linear.evaluate(&point, out);
-            out[0] *= sign;
-            out[1] *= sign;
+        rates::integrated(p, horizons, loose, |point, out| {
+            linear.evaluate(point, out);
             evaluations += 1;
-        };
-        let mut positions = Vec::new();
-        for horizon in horizons {
-            integrate(&mut rate, now, *horizon, &mut x, loose);
-            now = *horizon;
-            positions.push([x[4], 0.0]);
-        }
-        positions
+        })
     });
     let microseconds = clock.elapsed().as_secs_f64() * 1e6 / f64::from(evaluations);
     let cost = serde_json::json!({ "points": linear.points(), "covered": linear.covered(),

@@ -7,12 +7,13 @@ use crate::chart::{COLORS, Mark, Panel, SeriesLabelPosition, draw};
 use crate::errors::{Errors, Truth};
 use crate::free_fall::Domain;
 use crate::own_horizon::{self, Curves, FLOW_MAP, TRAJECTORY};
+use crate::rates;
 use indicatif::ProgressBar;
 use rapier3d_immersed::reduced::Axis;
 use rapier3d_immersed::reduced::FallingPlate;
+use rapier3d_immersed::reduced::Tolerances;
 use rapier3d_immersed::reduced::{CrossParams, cross};
 use rapier3d_immersed::reduced::{FlowMap, TrajectorySurrogate};
-use rapier3d_immersed::reduced::{Tolerances, integrate};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -149,12 +150,7 @@ fn flow_map(range: (f64, f64), truth: &Truth) -> Result<(Errors, f64), Box<dyn E
 }
 
 /// The rates themselves as a tensor train, integrated as they are.
-fn rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
-    let model = |x: &[f64], out: &mut [f64]| {
-        let mut rate = [0.0; 6];
-        plate(&x[4..]).rate(&[x[0], x[1], x[2], x[3], 0.0, 0.0], &mut rate);
-        out.copy_from_slice(&rate[..5]);
-    };
+fn separated_rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
     let params = CrossParams {
         tolerance: 1e-5,
         max_evaluations: 300_000,
@@ -163,7 +159,7 @@ fn rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
         ..CrossParams::default()
     };
     let axes = [state()?, parameters(range, 4)?].concat();
-    let (train, _) = cross(axes, 5, model, &params)?;
+    let (train, _) = cross(axes, 5, rates::exact, &params)?;
     let train = train.rounded(1e-6);
     let loose = Tolerances {
         relative: 1e-5,
@@ -172,23 +168,9 @@ fn rates(range: (f64, f64), truth: &Truth) -> Result<Errors, Box<dyn Error>> {
     };
     let mut scratch = Vec::new();
     Ok(truth.errors(|p, _| {
-        let mut x = [0.0; 5];
-        x[..4].copy_from_slice(&start(p[4])[..4]);
-        let mut now = 0.0;
-        let mut rate = |_: f64, x: &[f64], out: &mut [f64]| {
-            let (inside, sign) = reduced(x);
-            let point = [&inside[..], &p[..4]].concat();
-            train.evaluate_into(&point, out, &mut scratch);
-            out[0] *= sign;
-            out[1] *= sign;
-        };
-        let mut positions = Vec::new();
-        for horizon in HORIZONS {
-            integrate(&mut rate, now, horizon, &mut x, loose);
-            now = horizon;
-            positions.push([x[4], 0.0]);
-        }
-        positions
+        rates::integrated(p, &HORIZONS, loose, |point, out| {
+            train.evaluate_into(point, out, &mut scratch);
+        })
     }))
 }
 
@@ -250,7 +232,7 @@ pub fn planar(path: &Path, bar: &ProgressBar) -> Outcome {
         costs.insert(format!("{FLOW_MAP}, µs per step"), microseconds.into());
         curves.push((FLOW_MAP, errors));
         bar.set_message(format!("{name}: rates"));
-        curves.push((RATES, rates(range, &truth)?));
+        curves.push((RATES, separated_rates(range, &truth)?));
         bar.set_message(format!("{name}: DEIM"));
         let (errors, cost) = alternatives::deim(range, &truth)?;
         curves.push((alternatives::DEIM, errors));

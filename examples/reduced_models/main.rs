@@ -18,74 +18,86 @@ mod force_coefficients;
 mod free_fall;
 mod horizon;
 mod own_horizon;
+mod rates;
+#[path = "../support/mod.rs"]
+mod support;
 mod thesis;
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
+use support::options::{Json, Only, Out};
 
 /// Bake and draw reduced models.
 #[derive(Parser)]
+#[command(name = "reduced_models", version)]
+#[command(mut_arg("only", |only| only.default_value("linear,falling,coupled,kirchhoff,driven")))]
 struct Arguments {
-    /// Directory for the pictures.
-    #[arg(long, default_value = "out")]
-    out: PathBuf,
-    /// Draw only these. All there are: linear, falling, coupled, kirchhoff, driven, and, of half a minute to several each,
-    /// planar, plate, card
-    #[arg(
-        long,
-        value_delimiter = ',',
-        default_value = "linear,falling,coupled,kirchhoff,driven"
-    )]
-    only: Vec<String>,
-    /// Print the numbers behind the pictures as JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    only: Only<Name>,
+    #[command(flatten)]
+    json: Json,
+}
+
+/// Figures by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Name {
+    /// A parametric linear model
+    Linear,
+    /// A falling body
+    Falling,
+    /// Coupled equations
+    Coupled,
+    /// Kirchhoff's equations
+    Kirchhoff,
+    /// A plate's horizon and the alternatives: half a minute
+    Planar,
+    /// A plate in water: minutes
+    Plate,
+    /// A card in air: minutes
+    Card,
+    /// A body in rapier by a reduced law
+    Driven,
 }
 
 type Outcome = Result<serde_json::Value, Box<dyn Error>>;
 type Figure = fn(&Path, &ProgressBar) -> Outcome;
 
-const FIGURES: [(&str, Figure); 8] = [
-    ("linear", thesis::linear_problem),
-    ("falling", thesis::falling),
-    ("coupled", thesis::coupled),
-    ("kirchhoff", thesis::kirchhoff),
-    ("planar", horizon::planar),
-    ("plate", horizon::plate_in_water),
-    ("card", horizon::card_in_air),
-    ("driven", driven::driven),
+const FIGURES: [(Name, &str, Figure); 8] = [
+    (Name::Linear, "linear", thesis::linear_problem),
+    (Name::Falling, "falling", thesis::falling),
+    (Name::Coupled, "coupled", thesis::coupled),
+    (Name::Kirchhoff, "kirchhoff", thesis::kirchhoff),
+    (Name::Planar, "planar", horizon::planar),
+    (Name::Plate, "plate", horizon::plate_in_water),
+    (Name::Card, "card", horizon::card_in_air),
+    (Name::Driven, "driven", driven::driven),
 ];
 
 fn run(arguments: &Arguments) -> Result<(), String> {
-    if let Some(name) = arguments
-        .only
-        .iter()
-        .find(|name| !FIGURES.iter().any(|(known, _)| known == name))
-    {
-        return Err(format!("--only: there is no figure '{name}'"));
-    }
-    std::fs::create_dir_all(&arguments.out)
-        .map_err(|e| format!("--out: {}: {e}", arguments.out.display()))?;
+    let folder = &arguments.out.folder;
+    std::fs::create_dir_all(folder).map_err(|e| format!("--out: {}: {e}", folder.display()))?;
     let chosen: Vec<_> = FIGURES
         .iter()
-        .filter(|(name, _)| arguments.only.iter().any(|o| o == name))
+        .filter(|(name, ..)| arguments.only.only.contains(name))
         .collect();
     let style = ProgressStyle::with_template("{elapsed_precise} [{bar:30}] {pos}/{len} {msg}")
         .map_err(|e| e.to_string())?;
     let bar = ProgressBar::new(chosen.len() as u64).with_style(style);
     let mut numbers = serde_json::Map::new();
-    for (name, figure) in chosen {
+    for (_, name, figure) in chosen {
         bar.set_message((*name).to_string());
-        let path = arguments.out.join(format!("{name}.svg"));
+        let path = arguments.out.path(&format!("{name}.svg"));
         let values = figure(&path, &bar).map_err(|e| format!("{}: {e}", path.display()))?;
         numbers.insert((*name).to_string(), values);
         bar.inc(1);
     }
     bar.finish_and_clear();
-    if arguments.json {
+    if arguments.json.on {
         println!("{:#}", serde_json::Value::Object(numbers));
     } else {
         for (name, values) in &numbers {
@@ -96,7 +108,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
+    match run(&support::cli::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("{message}");

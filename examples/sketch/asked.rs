@@ -28,7 +28,8 @@ pub struct Asked {
 /// What the command line asks for, leaf by leaf. A bad request ends the program.
 pub fn asked(options: &Options, stage: &Stage) -> Vec<Asked> {
     let least = options.land.len().max(1) as u32;
-    let count = options.bodies.unwrap_or(least);
+    options.count.check(1..=200);
+    let count = options.count.count.unwrap_or(least);
     let shift = |index: u32| options.spread * (f64::from(index) - 0.5 * f64::from(count - 1));
     let follow = |sketch| Asked {
         sketch,
@@ -87,7 +88,7 @@ fn read(path: &Path, options: &Options, leaf: &Experiment) -> Result<Sketch, Str
     let place = |[x, y]: svg::Point| Vec3::new((x - first[0]) * unit, (last[1] - y) * unit, 0.0);
     let line: Vec<Vec3> = line.into_iter().map(place).collect();
     let pace = || Sketch::landing(leaf, Vec3::y() * height, &[], Vec3::zeros());
-    let seconds = match options.seconds {
+    let seconds = match options.pace {
         Some(seconds) => seconds,
         None => pace().map_err(|problem| problem.to_string())?.duration(),
     };
@@ -131,7 +132,8 @@ fn patterns(
     let planner = Planner::new(leaf.clone(), subspaces, &graph, PlannerParams::default())?;
     (0..count)
         .map(|index| {
-            let plan = planner.plan_sequence(&options.patterns, options.seed + u64::from(index))?;
+            let plan =
+                planner.plan_sequence(&options.patterns, options.seed.value + u64::from(index))?;
             let depth = plan.fall.moments.iter().map(|m| -m.position.y);
             let depth = depth.fold(0.1, f64::max);
             let start = shift(index) + Vec3::y() * options.height.unwrap_or(depth);

@@ -3,9 +3,9 @@
 //!
 //! ```text
 //! cargo run --release --features bake,serde-serialize --example sketch
-//! cargo run --release --features bake,serde-serialize --example sketch -- --sketch examples/sketch/data/swing.svg --bodies 3
-//! cargo run --release --features bake,serde-serialize --example sketch -- --land 0.5,0 --land -0.5,0 --wind 1,0,0
-//! cargo run --release --features bake,serde-serialize --example sketch -- --patterns zz,ar --bodies 4 --obstacle 0,1,0,0.2
+//! cargo run --release --features bake,serde-serialize --example sketch -- --sketch examples/sketch/data/swing.svg --count 3
+//! cargo run --release --features bake,serde-serialize --example sketch -- --land 0.5,0 --land -0.5,0 --uniform-wind 1,0,0
+//! cargo run --release --features bake,serde-serialize --example sketch -- --patterns zz,ar --count 4 --obstacle 0,1,0,0.2
 //! cargo run --release --features bake,serde-serialize --example sketch -- --load out/sketch.book
 //! ```
 //!
@@ -13,8 +13,8 @@
 //! and other leaves have put it. Series of patterns are planned before, for a leaf alone in still air. Either can be saved
 //! (`--save`) and played again without planning (`--load`), in the same world or another.
 //!
-//! Writes `sketch.svg` (asked paths dashed, flown ones, asked landing points and real ones), `sketch.html` (plays in a browser), `sketch.gif`
-//! and `sketch.glb`. Printed for each leaf: mean and largest distance from its sketch, distance of the place where it
+//! Writes `sketch.svg` (asked paths dashed, flown ones, asked landing points and real ones), `sketch.html` (plays in a browser), `sketch.glb`
+//! and, with `--gif`, `sketch.gif`. Printed for each leaf: mean and largest distance from its sketch, distance of the place where it
 //! landed, when it met an obstacle, and the time that it all took.
 
 mod asked;
@@ -34,12 +34,12 @@ use options::Options;
 use outcome::Outcome;
 use stage::Stage;
 use std::time::Instant;
+use support::cli;
+use support::film::Film;
 use support::recording::{RunOptions, run};
-use support::{cli, gif, glb, html};
 
 /// Time after the last sketch's end, for leaves to come to rest, s.
 const REST: f64 = 1.0;
-const FRAME_RATE: f64 = 30.0;
 
 fn main() {
     let options: Options = cli::parse();
@@ -56,31 +56,23 @@ fn main() {
     let ends = guided.asked.iter().map(|asked| asked.sketch.duration());
     let run_options = RunOptions {
         seconds: ends.fold(0.0, f64::max) + REST,
-        frame_rate: FRAME_RATE,
+        frame_rate: options.frame_rate.hertz,
         forces: true,
         message: "sketches",
     };
     let recording = run(&mut scene, &run_options, &mut guided);
     let seconds = begin.elapsed().as_secs_f64();
     let (outcomes, played) = guided.outcomes(&scene, &recording);
-    let mut files = vec![
-        (
-            "sketch.svg",
-            outcome::picture(&stage, &outcomes).into_bytes(),
-        ),
-        (
-            "sketch.html",
-            html::page("Sketches", &scene, &[("flown", &recording)]).into(),
-        ),
-        ("sketch.glb", glb::animation(&scene, &recording)),
-    ];
-    match gif::animation(&scene, &[&recording]) {
-        Ok(bytes) => files.push(("sketch.gif", bytes)),
-        Err(problem) => cli::cannot_write(&options.out.join("sketch.gif"), problem),
-    }
-    for (name, content) in files {
-        cli::write(&options.out.join(name), content);
-    }
+    let film = Film {
+        name: "sketch",
+        title: "Sketches",
+        scene: &scene,
+        runs: &[("flown", &recording)],
+        camera: None,
+    };
+    let files = film.write(&options.out, &options.film);
+    let picture = outcome::picture(&stage, &outcomes);
+    options.out.write("sketch.svg", picture);
     if let Some(path) = &options.save {
         book::write(path, &stage, &played);
     }
@@ -94,6 +86,6 @@ fn main() {
         "{} leaves of 7.3 cm {source} in {seconds:.1} s: {:.1} cm from their sketches on average; {}",
         outcomes.len(),
         100.0 * mean,
-        options.out.join("sketch.html").display(),
+        files[0].display(),
     );
 }

@@ -2,12 +2,16 @@
 
 use crate::support::Vec3;
 use crate::support::cli::{self, finite};
+use crate::support::film::{FilmArgs, FrameRate};
+use crate::support::options::{Count, Out, Seed};
 use clap::{Parser, ValueEnum};
 use rapier3d_immersed::OnContact;
 use rapier3d_immersed::motion::Pattern;
 use std::path::PathBuf;
 
 /// Leaves follow sketches, land where they are asked to, or fall in a series of patterns.
+///
+/// Without --count there is one leaf for each --land.
 #[derive(Parser, Debug)]
 #[command(name = "sketch", version, allow_negative_numbers = true)]
 pub struct Options {
@@ -29,36 +33,37 @@ pub struct Options {
     /// Codebook to write: what each leaf was steered by, and beside it in .json its release and sketch
     #[arg(long, value_name = "FILE")]
     pub save: Option<PathBuf>,
-    /// Number of leaves [default: one for each --land]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=200))]
-    pub bodies: Option<u32>,
+    #[command(flatten)]
+    pub count: Count,
     /// How far the start (of --sketch: the whole sketch) of a leaf is from that of the one before, m
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, default_value = "0.15,0,0", value_parser = cli::vector)]
     pub spread: Vec3,
     /// Height of the start, m [default: 2; of a CSV table its own, of patterns their descent]
     #[arg(long, value_name = "M", value_parser = cli::positive)]
     pub height: Option<f64>,
-    /// Length of the fall along an SVG path, s [default: that of a fall broadside from its height]
+    /// Time for the way along an SVG path, s [default: that of a fall broadside from its height]
     #[arg(long, value_name = "S", value_parser = cli::positive)]
-    pub seconds: Option<f64>,
+    pub pace: Option<f64>,
     /// A ball that stands in the way: center and radius, m
     #[arg(long, value_name = "X,Y,Z,R", allow_hyphen_values = true, value_parser = numbers::<4>)]
     pub obstacle: Vec<[f64; 4]>,
     /// A box that stands in the way: center and extents, m
     #[arg(long = "box", value_name = "X,Y,Z,A,B,C", allow_hyphen_values = true, value_parser = numbers::<6>)]
     pub boxes: Vec<[f64; 6]>,
-    /// Wind, m/s
+    /// Wind that is the same everywhere, m/s
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, default_value = "0,0,0", value_parser = cli::vector)]
-    pub wind: Vec3,
+    pub uniform_wind: Vec3,
     /// What a contact does to a series that is played (--patterns, --load)
     #[arg(long, value_enum, default_value = "ignore")]
     pub on_contact: Contact,
-    /// Seed of searches and plans
-    #[arg(long, value_name = "N", default_value = "1")]
-    pub seed: u64,
-    /// Folder for the files
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    pub out: PathBuf,
+    #[command(flatten)]
+    pub seed: Seed,
+    #[command(flatten)]
+    pub frame_rate: FrameRate,
+    #[command(flatten)]
+    pub film: FilmArgs,
+    #[command(flatten)]
+    pub out: Out,
 }
 
 /// [`OnContact`] by name.

@@ -55,7 +55,7 @@ impl Stage {
             experiment,
             balls: options.obstacle.clone(),
             boxes: options.boxes.clone(),
-            wind: options.wind,
+            wind: options.uniform_wind,
         }
     }
 
@@ -101,7 +101,7 @@ impl Stage {
         let mut immersion = self.air();
         let steer = |(index, asked): (usize, &Asked)| {
             let params = FollowParams {
-                seed: options.seed + index as u64,
+                seed: options.seed.value + index as u64,
                 ..FollowParams::default()
             };
             let follower =

@@ -20,36 +20,34 @@ mod view;
 use clap::{Parser, ValueEnum};
 use drift::Drift;
 use fall::Fall;
-use std::path::PathBuf;
 use std::time::Instant;
 use support::cli;
+use support::options::{Count, Out, Seconds, Seed, Wind};
 use view::Film;
 
 /// Flakes fall in a turbulent wind and settle.
 #[derive(Parser, Debug)]
 #[command(name = "snow", version)]
+#[command(mut_arg("count", |count| count.default_value("100000")))]
+#[command(mut_arg("wind", |wind| wind.default_value("1.5")))]
+#[command(mut_arg("seconds", |seconds| seconds.default_value("6")))]
 struct Options {
     /// What moves the flakes
     #[arg(long, value_enum, default_value = "suspension")]
     by: Means,
-    /// Flakes in the air
-    #[arg(long, value_name = "N", default_value = "100000", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    flakes: u32,
-    /// Wind at a height of 2 m, m/s
-    #[arg(long, value_name = "M/S", default_value = "1.5", value_parser = cli::positive)]
-    wind: f64,
-    /// Simulated time, s
-    #[arg(long, value_name = "S", default_value = "6", value_parser = cli::positive)]
-    seconds: f64,
-    /// Seed of places and turbulence
-    #[arg(long, value_name = "N", default_value = "1")]
-    seed: u64,
+    #[command(flatten)]
+    count: Count,
+    #[command(flatten)]
+    wind: Wind,
+    #[command(flatten)]
+    time: Seconds,
+    #[command(flatten)]
+    seed: Seed,
     /// Print what a flake costs per step by the number of flakes, and do nothing else
     #[arg(long)]
     cost: bool,
-    /// Folder for the film
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
+    #[command(flatten)]
+    out: Out,
 }
 
 /// What moves the flakes.
@@ -63,36 +61,41 @@ enum Means {
 
 fn main() -> Result<(), rapier3d_immersed::Error> {
     let options: Options = cli::parse();
-    if options.cost {
-        return cost::table(options.wind as f32);
+    let (wind, seed) = (options.wind.speed as f32, options.seed.value);
+    if wind <= 0.0 {
+        cli::bad_value("--wind", "there has to be some: it makes the turbulence");
     }
-    let (wind, seed) = (options.wind as f32, options.seed);
+    if options.cost {
+        return cost::table(wind);
+    }
+    let flakes = options.count.within(1..=1_000_000);
     let mut fall = match options.by {
-        Means::Suspension => Fall::Fine(Box::new(Drift::new(options.flakes, wind, seed)?)),
-        Means::Emitter => Fall::large(options.flakes, wind, seed, [4.0, 0.9])?,
+        Means::Suspension => Fall::Fine(Box::new(Drift::new(flakes, wind, seed)?)),
+        Means::Emitter => Fall::large(flakes, wind, seed, [4.0, 0.9])?,
     };
     println!("{}", fall.described());
     let mut film = Film::new(&fall::world(fall::DT));
-    let steps = (options.seconds / f64::from(fall::DT)).ceil() as u64;
+    let steps = (options.time.given() / f64::from(fall::DT)).ceil() as u64;
     let bar = cli::progress(steps, "snow");
-    let (mut spent, mut flakes) = (0.0, 0.0);
+    let (mut spent, mut moved) = (0.0, 0.0);
     for step in 0..steps {
         let begin = Instant::now();
         fall.step();
         spent += begin.elapsed().as_secs_f64();
-        flakes += fall.moving() as f64;
+        moved += fall.moving() as f64;
         if step % 4 == 0 {
             film.expose(fall.places());
         }
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let path = options.out.join("snow.gif");
-    cli::write(&path, film.developed(4.0 * fall::DT));
+    let path = options
+        .out
+        .write("snow.gif", film.developed(4.0 * fall::DT));
     println!(
         "{steps} steps of {:.0} flakes: {:.0} ns per flake and step, {:.1} ms per step; {} settled; {}",
-        flakes / steps as f64,
-        1e9 * spent / flakes,
+        moved / steps as f64,
+        1e9 * spent / moved,
         1e3 * spent / steps as f64,
         fall.settled(),
         path.display(),

@@ -1,7 +1,8 @@
 //! The bodies of the thesis's section 4.6, and what moves them.
 
-use crate::support::cli::Lengths;
-use crate::support::specimen::{ShapeName, Specimen, TiltAxis};
+use crate::support::recording::Recording;
+use crate::support::shape::{Lengths, MeshArgs, ShapeArgs, ShapeName};
+use crate::support::specimen::{Specimen, TiltAxis};
 use crate::support::{Quat, Vec3, airplane, from_rapier};
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::parry::shape::Ball;
@@ -61,6 +62,8 @@ pub struct Case {
     pub hydro: HydroProperties,
     pub dry: DryMass,
     pub look: Look,
+    /// Its surface about its center of mass.
+    pub solid: Surface,
     /// U0 of (4.1), m/s, and longest extent, m: the scales of the turbulence.
     pub u0: f64,
     pub length: f64,
@@ -79,18 +82,25 @@ pub struct Flight {
 }
 
 fn specimen(shape: ShapeName, size: &[f64]) -> Specimen {
-    Specimen::new(shape, Some(&Lengths(size.to_vec())), None, None, 0.0)
-        .expect("the thesis's sizes")
+    let asked = ShapeArgs {
+        shape: Some(shape),
+        size: Some(Lengths(size.to_vec())),
+        mesh: MeshArgs::default(),
+    };
+    let shaped = asked.try_shaped().expect("the thesis's sizes");
+    Specimen::new(&shaped).expect("the thesis's bodies")
 }
 
 impl Case {
     /// A specimen of the given density, kg/m³, every 5 ms over 1.5 s.
     fn of(specimen: &Specimen, semi_axes: Vec3, density: f64, fluid: Fluid) -> Self {
+        let numbers = specimen.numbers(density, &fluid, GRAVITY);
         Self {
             hydro: specimen.hydro.clone(),
             dry: specimen.dry_mass(density),
             look: Look::Ellipsoid(semi_axes),
-            u0: specimen.u0(density, &fluid, GRAVITY),
+            solid: specimen.solid.clone(),
+            u0: numbers.expect("a body with a mass").u0,
             length: specimen.span,
             fluid,
             law: StochasticLaw::default(),
@@ -150,6 +160,7 @@ impl Case {
             hydro: kind.body.hydro.clone(),
             dry: kind.dry,
             look: Look::Lines(from_center),
+            solid: kind.solid.map(|v| v - kind.dry.center),
             u0: ((ratio - 1.0) * GRAVITY * airplane::THICKNESS).sqrt(),
             length: airplane::SIDE,
             fluid: Fluid::AIR,
@@ -214,6 +225,20 @@ impl Flight {
     pub fn way(&self) -> Vec3 {
         let [first, last] = [0, self.states.len() - 1].map(|i| self.states[i].position);
         last - first
+    }
+
+    /// As an animation has it.
+    pub fn recording(&self) -> Recording {
+        let states = self.states.iter();
+        Recording {
+            times: (0..self.states.len())
+                .map(|step| step as f64 * self.dt)
+                .collect(),
+            frames: states
+                .map(|state| vec![(state.position, state.orientation)])
+                .collect(),
+            ..Recording::default()
+        }
     }
 
     /// Turning of the body summed up over the run, turns.

@@ -13,6 +13,7 @@
 //!   it keeps its heading; with it, it pitches to the front and turns sideways, and often rolls over,
 //! * `ellipsoid.svg`: a rubber ellipsoid in water, as Fig. 4.5: with Kirchhoff's equations alone, with its vortical loads,
 //!   and with turbulence, without which it stays in the plane in which it was tilted,
+//! * `paper.html`, `airplane.html`, `ellipsoid.html` (and `.glb`): the same flights side by side, to play in a browser,
 //! * `stochastic.json`: what each run did, and the cost per step of the thesis's Table 4.2, all six rows, re-measured.
 //!
 //! Fig. 4.2, the history of the turbulence, is drawn by the example `wind`.
@@ -27,26 +28,28 @@ use case::{Case, Flight, Physics};
 use clap::Parser;
 use figures::{ALONG, FROM_ABOVE, FROM_THE_SIDE, Style, endings, strobe};
 use serde_json::{Value, json};
-use std::path::PathBuf;
 use support::cli;
+use support::film::{Film, FilmArgs};
+use support::options::{Json, Out, Seed};
 use support::picture::panels;
+use support::recording::Recording;
+use support::scene::{Kind, Scene};
 
 /// The stochastic method's paper, airplane and ellipsoid, with and without turbulence.
 #[derive(Parser, Debug)]
 #[command(name = "stochastic", version)]
 struct Options {
-    /// Seed of the turbulence
-    #[arg(long, value_name = "N", default_value = "1")]
-    seed: u64,
+    #[command(flatten)]
+    seed: Seed,
     /// Resistance of rotation, a share of that of the law's drag: 0 as the thesis prints it
     #[arg(long, value_name = "SHARE", default_value = "1", value_parser = cli::not_negative)]
     damping: f64,
-    /// Folder for the files
-    #[arg(long, value_name = "DIR", default_value = "out")]
-    out: PathBuf,
-    /// Print the numbers as JSON instead of a table
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// Runs under these physics, and what they did.
@@ -62,7 +65,7 @@ impl Runs<'_> {
     }
 
     fn fly(&mut self, name: &str, case: &Case, physics: Physics) -> Flight {
-        let flight = case.fly(physics, self.options.seed);
+        let flight = case.fly(physics, self.options.seed.value);
         let way = flight.way();
         let numbers = json!({
             "fall": -way.y,
@@ -76,8 +79,30 @@ impl Runs<'_> {
 
     fn draw(&self, file: &str, title: &str, pictures: &[support::picture::Panel], layout: Layout) {
         let svg = panels(title, pictures, layout.0, layout.1).expect("lines can be drawn");
-        cli::write(&self.options.out.join(file), svg);
+        self.options.out.write(file, svg);
     }
+}
+
+/// Flights of one case side by side as a page.
+fn film(options: &Options, name: &str, title: &str, case: &Case, flights: &[(Physics, Flight)]) {
+    let mut scene = Scene::new(Default::default());
+    scene
+        .kinds
+        .push(Kind::seen(case.solid.clone(), case.dry.mass));
+    scene.add_seen(0, [0.62, 0.24, 0.04]);
+    let runs: Vec<(&str, Recording)> = flights
+        .iter()
+        .map(|(physics, flight)| (physics.name(), flight.recording()))
+        .collect();
+    let runs: Vec<(&str, &Recording)> = runs.iter().map(|(name, run)| (*name, run)).collect();
+    let film = Film {
+        name,
+        title,
+        scene: &scene,
+        runs: &runs,
+        camera: None,
+    };
+    film.write(&options.out, &options.film);
 }
 
 /// Columns, and pixels of a panel.
@@ -100,10 +125,19 @@ fn main() {
     };
     for (angle, name) in [(75.0, "paper, 75°"), (30.0, "paper, 30°")] {
         let case = runs.case(Case::paper(angle));
-        for physics in THREE {
-            let flight = runs.fly(name, &case, physics);
-            pictures[0].push(strobe(physics.name(), &case, &flight, style));
-            pictures[1].push(endings(&case, physics, 200));
+        let flights = THREE.map(|physics| (physics, runs.fly(name, &case, physics)));
+        for (physics, flight) in &flights {
+            pictures[0].push(strobe(physics.name(), &case, flight, style));
+            pictures[1].push(endings(&case, *physics, 200));
+        }
+        if angle == 75.0 {
+            film(
+                &options,
+                "paper",
+                "Paper in air, let go at 75°",
+                &case,
+                &flights,
+            );
         }
     }
     let title = "Paper of 8 × 2 × 0.01 cm in air, every 40 ms; released at 75° (top) and 30°";
@@ -114,6 +148,13 @@ fn main() {
 
     let airplane = runs.case(Case::airplane(0.0));
     let flights = THREE.map(|physics| (physics, runs.fly("airplane", &airplane, physics)));
+    film(
+        &options,
+        "airplane",
+        "Paper airplane, thrown level with 0.2 m/s",
+        &airplane,
+        &flights,
+    );
     let from_the_side = Style {
         every: 0.1,
         view: FROM_THE_SIDE,
@@ -140,6 +181,8 @@ fn main() {
     let ellipsoid = runs.case(Case::ellipsoid(0.0));
     let four = [Physics::Kirchhoff, THREE[0], THREE[1], THREE[2]];
     let flights = four.map(|physics| (physics, runs.fly("ellipsoid", &ellipsoid, physics)));
+    let title = "Rubber ellipsoid sinking in water";
+    film(&options, "ellipsoid", title, &ellipsoid, &flights);
     let mut pictures = Vec::new();
     for view in [FROM_THE_SIDE, ALONG] {
         let style = Style {
@@ -157,8 +200,8 @@ fn main() {
     let costs = cost::table();
     let text = json!({ "runs": runs.report, "cost": costs });
     let content = format!("{text:#}\n");
-    cli::write(&options.out.join("stochastic.json"), &content);
-    if options.json {
+    options.out.write("stochastic.json", &content);
+    if options.json.on {
         print!("{content}");
         return;
     }
@@ -172,8 +215,9 @@ fn main() {
         println!("{name:<55} {fall:>8.2} {drift:>8.2} {turns:>7.1}");
     }
     cost::print(&costs);
-    let out = options.out.display();
+    let out = options.out.folder.display();
     println!(
-        "wrote paper, endings, airplane_side, airplane_above, ellipsoid (.svg) and stochastic.json to {out}"
+        "wrote paper, endings, airplane_side, airplane_above, ellipsoid (.svg), paper, airplane, ellipsoid (.html, .glb) and \
+         stochastic.json to {out}"
     );
 }

@@ -1,6 +1,7 @@
 //! The paper airplane of the thesis's section 4.6: a folded sheet of 8.3 × 8.3 × 0.01 cm, and one that flies.
 
 use super::mesh::RawMesh;
+use super::options::key;
 use super::picture::{self, Line, Panel, time_color};
 use super::recording::Recording;
 use super::scene::{Kind, Scene};
@@ -46,9 +47,9 @@ pub fn stored_added_mass() -> (AddedMass, f64) {
     let number = |value: &Value| value.as_f64().expect("a number");
     let block = |name: &str| Matrix3::from_fn(|i, j| number(&file[name][i][j]));
     let added_mass = AddedMass {
-        linear: block("linear"),
-        coupling: block("coupling"),
-        angular: block("angular"),
+        linear: block("linear_m3"),
+        coupling: block("coupling_m4"),
+        angular: block("angular_m5"),
     };
     (added_mass, number(&file["error"]))
 }
@@ -313,7 +314,7 @@ impl Flight {
     pub fn json(&self) -> Value {
         let fields = self
             .rows()
-            .map(|(name, value, _)| (name.into(), json!(value)));
+            .map(|(name, value, unit)| (key(name, unit), json!(value)));
         Value::Object(fields.into_iter().collect())
     }
 }

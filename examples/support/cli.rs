@@ -102,19 +102,6 @@ pub fn vector(text: &str) -> Result<Vec3, String> {
     }
 }
 
-/// One to three lengths, `A[,B[,C]]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Lengths(pub Vec<f64>);
-
-/// Parses [`Lengths`], each above zero.
-pub fn lengths(text: &str) -> Result<Lengths, String> {
-    let values: Vec<f64> = text.split(',').map(positive).collect::<Result<_, _>>()?;
-    if values.len() > 3 {
-        return Err("must be one to three lengths: A[,B[,C]]".into());
-    }
-    Ok(Lengths(values))
-}
-
 /// A fluid by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum FluidName {
@@ -135,7 +122,7 @@ impl FluidName {
 }
 
 /// The fluid's flags.
-#[derive(Args, Clone, Debug)]
+#[derive(Args, Clone, Copy, Debug)]
 pub struct FluidArgs {
     /// Fluid that the body is immersed in
     #[arg(long, value_enum, default_value = "air")]

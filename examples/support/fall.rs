@@ -1,13 +1,15 @@
 //! One body released in a fluid at rest: the run behind `drop`.
 
-use super::{Quat, Vec3};
+use super::recording::{Recording, components};
+use super::{Quat, Vec3, track};
 use clap::ValueEnum;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, Normal};
 use rapier3d_immersed::motion::Trajectory;
 use rapier3d_immersed::training::{BodyInWorld, BodyState};
-use rapier3d_immersed::{DryMass, Error, Fluid, ForceBreakdown, FreeBody, ImmersedBody};
-use std::fmt::Write;
+use rapier3d_immersed::{
+    DryMass, Error, Fluid, ForceAndTorque, ForceBreakdown, FreeBody, ImmersedBody,
+};
 
 /// Most steps of one run: what is recorded of them stays below 1 GB.
 const MOST_STEPS: f64 = 4e6;
@@ -147,9 +149,21 @@ impl Fall {
         Ok(fall)
     }
 
-    /// Every step as a line of comma-separated values.
+    /// Every step as a row of a table ([`track`]), with the components of force and torque where they were asked for.
     pub fn csv(&self) -> String {
-        const COMPONENTS: [&str; 8] = [
+        let parts = |f: &ForceBreakdown| {
+            [
+                f.added_mass,
+                f.drag,
+                f.translational_lift,
+                f.rotational_lift,
+                f.damping,
+                f.buoyancy,
+                f.weight,
+                f.turbulence,
+            ]
+        };
+        const NAMES: [&str; 8] = [
             "added_mass",
             "drag",
             "translational_lift",
@@ -159,44 +173,50 @@ impl Fall {
             "weight",
             "turbulence",
         ];
-        let mut text = String::from("t,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz");
-        for name in COMPONENTS {
-            for quantity in ["fx", "fy", "fz", "tx", "ty", "tz"] {
-                write!(text, ",{name}_{quantity}").expect("a string takes anything");
-            }
-        }
-        text.push('\n');
-        for (step, (state, forces)) in self.states.iter().zip(&self.forces).enumerate() {
-            let (x, q) = (state.position, state.orientation.coords);
-            let (v, w) = (state.velocity, state.spin);
-            let time = step as f64 * self.trajectory.interval;
-            let mut row = vec![time, x.x, x.y, x.z, q.x, q.y, q.z, q.w];
-            row.extend([v.x, v.y, v.z, w.x, w.y, w.z]);
-            let mut fields: Vec<String> = row.iter().map(f64::to_string).collect();
+        let more: Vec<String> = NAMES
+            .iter()
+            .flat_map(|name| {
+                let quantities = ["fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"];
+                quantities.map(|quantity| format!("{name}_{quantity}"))
+            })
+            .filter(|_| !self.forces.is_empty())
+            .collect();
+        let forces = |step: usize| -> Vec<String> {
+            let Some(forces) = self.forces.get(step) else {
+                return Vec::new();
+            };
+            let six = |part: ForceAndTorque| {
+                let (force, torque) = (part.force, part.torque);
+                let six = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
+                six.map(|x| x.to_string())
+            };
             match forces {
-                Some(f) => {
-                    let parts = [
-                        f.added_mass,
-                        f.drag,
-                        f.translational_lift,
-                        f.rotational_lift,
-                        f.damping,
-                        f.buoyancy,
-                        f.weight,
-                        f.turbulence,
-                    ];
-                    for part in parts {
-                        let (force, torque) = (part.force, part.torque);
-                        let six = [force.x, force.y, force.z, torque.x, torque.y, torque.z];
-                        fields.extend(six.map(|x| x.to_string()));
-                    }
-                }
-                None => fields.extend(vec![String::new(); 6 * COMPONENTS.len()]),
+                Some(forces) => parts(forces).into_iter().flat_map(six).collect(),
+                None => vec![String::new(); more.len()],
             }
-            text.push_str(&fields.join(","));
-            text.push('\n');
+        };
+        let rows = self.states.iter().enumerate();
+        let rows =
+            rows.map(|(step, state)| (step as f64 * self.trajectory.interval, state, forces(step)));
+        track::csv(&more, rows)
+    }
+
+    /// The fall as an animation of so many frames per second has it.
+    pub fn recording(&self, frame_rate: f64) -> Recording {
+        let dt = self.trajectory.interval;
+        let every = (1.0 / (frame_rate * dt)).round().max(1.0) as usize;
+        let shown = || self.states.iter().enumerate().step_by(every);
+        let forces = self.forces.iter().step_by(every);
+        Recording {
+            times: shown().map(|(step, _)| step as f64 * dt).collect(),
+            frames: shown()
+                .map(|(_, state)| vec![(state.position, state.orientation)])
+                .collect(),
+            forces: forces
+                .map(|force| vec![components(&force.unwrap_or_default())])
+                .collect(),
+            ..Recording::default()
         }
-        text
     }
 }
 

@@ -9,7 +9,7 @@ use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 /// Size of one recording's picture, pixels.
 const SIZE: [usize; 2] = [236, 340];
 /// Pictures per second of an [`animation`], and the longest part of it that is shown, s.
-const RATE: f64 = 15.0;
+pub const RATE: f64 = 15.0;
 const LONGEST: f64 = 5.0;
 /// The last picture stays, 1/100 s.
 const PAUSE: u16 = 150;
@@ -25,7 +25,7 @@ const SAME: u8 = 255;
 /// # Errors
 /// Those of the encoder, for sizes beyond its format.
 pub fn animation(scene: &Scene, runs: &[&Recording]) -> Result<Vec<u8>, EncodingError> {
-    let camera = Camera::overview(&bounds(runs));
+    let camera = Camera::overview(&bounds(scene, runs));
     let runs: Vec<_> = runs.iter().map(|run| (scene, *run)).collect();
     side_by_side(&runs, &camera, RATE)
 }

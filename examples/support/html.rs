@@ -33,8 +33,20 @@ pub const MOST_WEIGHTS: f64 = 16.0;
 /// A component that nowhere reaches this share of its body's weight is left out.
 const LEAST_WEIGHTS: f64 = 0.01;
 
-/// The scene and its recordings of equal pieces, by name, as a page.
+/// The scene and its recordings of equal pieces, by name, as a page that begins with an overview.
 pub fn page(title: &str, scene: &Scene, runs: &[(&str, &Recording)]) -> String {
+    let recordings: Vec<&Recording> = runs.iter().map(|(_, recording)| *recording).collect();
+    let camera = Camera::overview(&bounds(scene, &recordings));
+    page_from(title, scene, runs, &camera)
+}
+
+/// The same, seen from a camera at first; the first body is followed from near by if it is too small to be seen from there.
+pub fn page_from(
+    title: &str,
+    scene: &Scene,
+    runs: &[(&str, &Recording)],
+    camera: &Camera,
+) -> String {
     let mut block = Block::default();
     let fixed: Vec<Value> = scene
         .obstacles
@@ -106,8 +118,7 @@ pub fn page(title: &str, scene: &Scene, runs: &[(&str, &Recording)]) -> String {
 
     let times = |key: usize| recordings.first().and_then(|run| run.times.get(key));
     let interval = times(stride).or(times(recorded.saturating_sub(1)));
-    let bounds = bounds(&recordings);
-    let camera = Camera::overview(&bounds);
+    let bounds = bounds(scene, &recordings);
     let header = json!({
         "title": title,
         "frames": keys().count(),
@@ -122,7 +133,9 @@ pub fn page(title: &str, scene: &Scene, runs: &[(&str, &Recording)]) -> String {
         "eye": camera.eye.as_slice(),
         "target": camera.target.as_slice(),
         "fieldOfView": camera.field_of_view,
-        "ground": ground(scene),
+        "follow": following(scene, &bounds),
+        "ground": ground(scene).unwrap_or(bounds[0].y),
+        "water": scene.water.is_some(),
         "meshes": block.meshes,
         "fixed": fixed,
         "bodies": bodies,
@@ -134,6 +147,20 @@ pub fn page(title: &str, scene: &Scene, runs: &[(&str, &Recording)]) -> String {
         .replace("{{script}}", &SCRIPTS.join("\n"))
         .replace("{{header}}", &header)
         .replace("{{data}}", &BASE64_STANDARD.encode(&block.bytes))
+}
+
+/// From how far the first body is followed, m: if all that move are few, and smaller than a fiftieth of where they go.
+fn following(scene: &Scene, [low, high]: &[Vec3; 2]) -> Option<f64> {
+    const FEW: usize = 4;
+    let reach = |piece: usize| {
+        let look = scene.look(piece);
+        let vertices = look.solid.vertices().iter();
+        vertices.map(Vec3::norm).fold(0.0, f64::max)
+    };
+    let all = scene.pieces.len();
+    let largest = (0..all).map(reach).fold(0.0, f64::max);
+    let hidden = (1..=FEW).contains(&all) && 25.0 * largest < (high - low).norm();
+    hidden.then(|| 16.0 * reach(0))
 }
 
 /// Height of the floor's top, m: of the first obstacle, which all shadows fall on.

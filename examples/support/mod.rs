@@ -7,6 +7,7 @@
 pub mod airplane;
 pub mod cli;
 pub mod fall;
+pub mod film;
 pub mod gallery;
 pub mod gif;
 pub mod glb;
@@ -14,13 +15,19 @@ pub mod html;
 pub mod law;
 pub mod leaf;
 pub mod mesh;
+pub mod options;
 pub mod picture;
 pub mod raster;
 pub mod recording;
+pub mod reel;
+pub mod replay;
 pub mod scene;
+pub mod series;
+pub mod shape;
 pub mod sheet;
 pub mod specimen;
 pub mod summary;
+pub mod track;
 
 use rapier3d_immersed::rapier3d::math::Vector;
 

@@ -58,7 +58,8 @@ pub const COMPONENTS: [&str; 5] = ["drag", "lift", "added mass", "buoyancy", "th
 /// A force by its [`COMPONENTS`], N, world axes.
 pub type Forces = [[f32; 3]; COMPONENTS.len()];
 
-fn components(of: &ForceBreakdown) -> Forces {
+/// A force by its [`COMPONENTS`].
+pub fn components(of: &ForceBreakdown) -> Forces {
     [
         of.drag.force + of.turbulence.force,
         of.translational_lift.force + of.rotational_lift.force,
@@ -70,7 +71,7 @@ fn components(of: &ForceBreakdown) -> Forces {
 }
 
 /// Poses of all pieces at equal intervals, and what else is worth knowing of a run.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Recording {
     /// Times of the frames, s.
     pub times: Vec<f64>,
@@ -118,13 +119,8 @@ pub fn run(scene: &mut Scene, options: &RunOptions, stepper: &mut impl Stepper) 
         .map(|piece| scene.kinds[piece.kind].body.hydro.planform.axes * Vec3::z())
         .collect();
     let mut recording = Recording {
-        times: Vec::new(),
-        frames: Vec::new(),
-        forces: Vec::new(),
         fates: vec![Fate::default(); scene.pieces.len()],
-        falling_step: 0.0,
-        landed_step: 0.0,
-        wall_time: 0.0,
+        ..Recording::default()
     };
     let (mut falling_steps, mut landed_steps) = (Vec::new(), Vec::new());
     let mut flying = scene.pieces.len();

@@ -4,7 +4,7 @@ use super::{Quat, Vec3, from_rapier, to_rapier};
 use rapier3d_immersed::geometry::Surface;
 use rapier3d_immersed::rapier3d::geometry::{ColliderBuilder, SharedShape};
 use rapier3d_immersed::rapier3d::math::{Pose, Rotation};
-use rapier3d_immersed::rapier3d::na::{UnitQuaternion, Vector3};
+use rapier3d_immersed::rapier3d::na::{Matrix3, UnitQuaternion, Vector3};
 use rapier3d_immersed::rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
 use rapier3d_immersed::{DryMass, HydroProperties, ImmersedBody};
 use std::sync::Arc;
@@ -87,6 +87,22 @@ impl Kind {
             solid: Arc::new(solid),
             outline: Arc::new(vec![outline]),
         })
+    }
+
+    /// A kind of piece to look at alone, of a mass in kg: in pictures it is as its solid.
+    pub fn seen(solid: Surface, mass: f64) -> Self {
+        let hydro = HydroProperties::from_surface(&solid, Vec3::zeros());
+        Self {
+            body: Arc::new(ImmersedBody::new(hydro)),
+            dry: DryMass {
+                mass,
+                center: Vec3::zeros(),
+                inertia: Matrix3::zeros(),
+            },
+            collision: SharedShape::ball(1.0),
+            solid: Arc::new(solid),
+            outline: Arc::new(Vec::new()),
+        }
     }
 }
 
@@ -198,6 +214,16 @@ impl Scene {
         self.water = Some(color);
     }
 
+    /// Adds a piece to look at alone; recordings say where it is.
+    pub fn add_seen(&mut self, kind: usize, color: [f32; 3]) {
+        self.pieces.push(Piece {
+            handle: RigidBodyHandle::invalid(),
+            kind,
+            release: Vec3::zeros(),
+        });
+        self.colors.push(color);
+    }
+
     fn add_obstacle(&mut self, pose: Pose, shape: SharedShape, color: [f32; 3]) {
         let solid = match shape.as_ball() {
             // Coarser than the one that the fluid would feel.
@@ -233,7 +259,8 @@ impl Scene {
     }
 }
 
-fn surface_of(
+/// A mesh of rapier's of one of its solids.
+pub fn surface_of(
     (vertices, triangles): (
         Vec<rapier3d_immersed::rapier3d::math::Vector>,
         Vec<[u32; 3]>,

@@ -2,7 +2,7 @@
 
 use super::picture::Failure;
 use super::recording::Recording;
-use super::scene::{Look, Scene, convex_outline, pose_parts};
+use super::scene::{Kind, Look, Scene, convex_outline, pose_parts};
 use super::{Quat, Vec3};
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
@@ -52,9 +52,14 @@ impl Camera {
     }
 }
 
-/// Two corners of a box in which nearly everything is nearly always: those few pieces that roll or blow away are not worth
-/// a view ten times as wide.
-pub fn bounds(recordings: &[&Recording]) -> [Vec3; 2] {
+/// Two corners of a box in which nearly everything is nearly always, and what is largest fits beside its middle: those few pieces
+/// that roll or blow away are not worth a view ten times as wide.
+pub fn bounds(scene: &Scene, recordings: &[&Recording]) -> [Vec3; 2] {
+    let reach = |kind: &Kind| {
+        let vertices = kind.solid.vertices().iter();
+        vertices.map(Vec3::norm).fold(0.0, f64::max)
+    };
+    let widest = scene.kinds.iter().map(reach).fold(0.0, f64::max);
     let frames = recordings.iter().flat_map(|recording| &recording.frames);
     let places: Vec<&Vec3> = frames
         .step_by(8)
@@ -66,9 +71,9 @@ pub fn bounds(recordings: &[&Recording]) -> [Vec3; 2] {
         values.sort_by(f64::total_cmp);
         values
     });
-    [0.02, 0.98].map(|share| {
+    [(0.02, -widest), (0.98, widest)].map(|(share, beside)| {
         let at = (share * places.len() as f64) as usize;
-        Vec3::from_fn(|axis, _| sorted[axis].get(at).copied().unwrap_or(0.0))
+        Vec3::from_fn(|axis, _| sorted[axis].get(at).copied().unwrap_or(0.0) + beside)
     })
 }
 

@@ -1,33 +1,14 @@
 //! The bodies that `drop` releases: shape, mass, and the numbers that describe them.
 
-use super::cli::Lengths;
-use super::{Quat, Vec3, mesh};
+use super::mesh;
+use super::shape::{ShapeName, Shaped, Solid};
+use super::{Quat, Vec3};
 use clap::ValueEnum;
 use rapier3d_immersed::geometry::Surface;
-use rapier3d_immersed::rapier3d::geometry::SharedShape;
-use rapier3d_immersed::rapier3d::na::{Matrix3, Rotation3, Vector3};
-use rapier3d_immersed::{DryMass, Fluid, HydroProperties};
-use std::f64::consts::{PI, TAU};
-use std::path::Path;
-
-/// Shapes by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ShapeName {
-    /// Thin elliptic plate: --size major,minor,thickness
-    Ellipse,
-    /// Circular plate, coin: --size diameter,thickness
-    Disc,
-    /// Rectangular plate: --size x,y,z; the thinnest extent is the thickness whatever the order
-    Plate,
-    /// Box: --size x,y,z, released with y up
-    Box,
-    /// --size diameter
-    Sphere,
-    /// --size x,y,z, released with y up
-    Ellipsoid,
-    /// --mesh FILE
-    Mesh,
-}
+use rapier3d_immersed::motion::{DimensionlessNumbers, Outline};
+use rapier3d_immersed::rapier3d::na::{Matrix3, Rotation3};
+use rapier3d_immersed::{DryMass, Error, Fluid, HydroProperties};
+use std::f64::consts::PI;
 
 /// Axis of the body that stays horizontal when it is tilted for the release.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -48,13 +29,6 @@ impl TiltAxis {
     }
 }
 
-/// Which definition of the dimensionless moment of inertia fits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outline {
-    Round,
-    Rectangular,
-}
-
 /// A body without material: shape, volume and unit inertia, about its center of mass.
 #[derive(Clone, Debug)]
 pub struct Specimen {
@@ -70,193 +44,139 @@ pub struct Specimen {
     pub length: f64,
     /// Longest extent, m.
     pub span: f64,
-    outline: Outline,
+    /// Which definition of the dimensionless moment of inertia fits.
+    pub outline: Outline,
+    /// Its surface, about the center of mass.
+    pub solid: Surface,
     /// Orientation at a release angle of zero.
     level: Quat,
 }
 
-impl Specimen {
-    /// Makes a body from `--shape`, `--size`, `--mesh` and its `--scale`.
-    ///
-    /// # Errors
-    /// The flag to blame and what is wrong.
-    pub fn new(
-        shape: ShapeName,
-        size: Option<&Lengths>,
-        file: Option<&Path>,
-        scale: Option<f64>,
-        sheet_thickness: f64,
-    ) -> Result<Self, (&'static str, String)> {
-        if shape == ShapeName::Mesh {
-            let path = file.ok_or(("--mesh", "--shape mesh needs a file".to_string()))?;
-            if size.is_some() {
-                return Err(("--size", "a mesh has its own size".into()));
-            }
-            let body = Self::from_mesh(path, scale, sheet_thickness);
-            return body.map_err(|problem| ("--mesh", problem));
-        }
-        if scale.is_some() {
-            return Err(("--scale", "only with --mesh".into()));
-        }
-        if file.is_some() {
-            return Err(("--mesh", "only with --shape mesh".into()));
-        }
-        let size = size.ok_or(("--size", "is required for this shape".to_string()))?;
-        Self::from_size(shape, &size.0).map_err(|problem| ("--size", problem))
-    }
+/// Volume, m³, and inertia at unit density about the center of mass, m⁵.
+struct Exact {
+    volume: f64,
+    inertia: Matrix3<f64>,
+}
 
-    fn from_size(shape: ShapeName, size: &[f64]) -> Result<Self, String> {
-        let wrong = |form: &str| format!("this shape takes {form}, not {} lengths", size.len());
-        match (shape, size) {
-            (ShapeName::Ellipse, [major, minor, thickness]) => {
-                if minor > major {
-                    return Err("major,minor,thickness: the minor axis is longer".into());
-                }
-                if thickness > minor {
-                    return Err("major,minor,thickness: thicker than its minor axis".into());
-                }
-                let surface = elliptic_plate(*major, *minor, *thickness)?;
-                let hydro = HydroProperties::from_surface(&surface, Vector3::zeros());
-                let volume = PI / 4.0 * major * minor * thickness;
-                let (a2, b2, t2) = (
-                    major * major / 16.0,
-                    minor * minor / 16.0,
-                    thickness * thickness / 12.0,
-                );
-                let inertia = Vec3::new(b2 + t2, a2 + b2, a2 + t2) * volume;
-                Ok(Self::built(
-                    hydro,
-                    volume,
-                    inertia,
-                    *thickness,
-                    *minor,
-                    Outline::Round,
-                    true,
-                ))
-            }
-            (ShapeName::Ellipse, _) => Err(wrong("major,minor,thickness")),
-            (ShapeName::Disc, [diameter, thickness]) => {
-                let half = *thickness as f32 / 2.0;
-                let shape = SharedShape::cylinder(half, *diameter as f32 / 2.0);
-                let hydro = from_shape(&shape)?;
-                let volume = PI / 4.0 * diameter * diameter * thickness;
-                let across = diameter * diameter / 16.0 + thickness * thickness / 12.0;
-                let inertia = Vec3::new(across, diameter * diameter / 8.0, across) * volume;
-                Ok(Self::built(
-                    hydro,
-                    volume,
-                    inertia,
-                    *thickness,
-                    *diameter,
-                    Outline::Round,
-                    true,
-                ))
-            }
-            (ShapeName::Disc, _) => Err(wrong("diameter,thickness")),
-            (ShapeName::Plate | ShapeName::Box, [x, y, z]) => {
-                let half = [x, y, z].map(|e| *e as f32 / 2.0);
-                let hydro = from_shape(&SharedShape::cuboid(half[0], half[1], half[2]))?;
-                let volume = x * y * z;
-                let inertia =
-                    Vec3::new(y * y + z * z, z * z + x * x, x * x + y * y) * (volume / 12.0);
-                let [thin, middle, _] = sorted([*x, *y, *z]);
-                let flat = shape == ShapeName::Plate;
-                Ok(Self::built(
-                    hydro,
-                    volume,
-                    inertia,
-                    thin,
-                    middle,
-                    Outline::Rectangular,
-                    flat,
-                ))
-            }
-            (ShapeName::Plate | ShapeName::Box, _) => Err(wrong("x,y,z")),
-            (ShapeName::Sphere, [diameter]) => {
-                let hydro = from_shape(&SharedShape::ball(*diameter as f32 / 2.0))?;
-                let volume = PI / 6.0 * diameter.powi(3);
-                let inertia = Vec3::repeat(diameter * diameter / 10.0 * volume);
-                Ok(Self::built(
-                    hydro,
-                    volume,
-                    inertia,
-                    *diameter,
-                    *diameter,
-                    Outline::Round,
-                    false,
-                ))
-            }
-            (ShapeName::Sphere, _) => Err(wrong("a diameter")),
-            (ShapeName::Ellipsoid, [x, y, z]) => {
-                let surface = ellipsoid([*x, *y, *z])?;
-                let hydro = HydroProperties::from_surface(&surface, Vector3::zeros());
-                let volume = PI / 6.0 * x * y * z;
-                let inertia =
-                    Vec3::new(y * y + z * z, z * z + x * x, x * x + y * y) * (volume / 20.0);
-                let [thin, middle, _] = sorted([*x, *y, *z]);
-                Ok(Self::built(
-                    hydro,
-                    volume,
-                    inertia,
-                    thin,
-                    middle,
-                    Outline::Round,
-                    false,
-                ))
-            }
-            (ShapeName::Ellipsoid, _) => Err(wrong("x,y,z")),
-            (ShapeName::Mesh, _) => Err("a mesh has its own size".into()),
-        }
-    }
-
-    fn from_mesh(path: &Path, scale: Option<f64>, sheet_thickness: f64) -> Result<Self, String> {
-        let solid = mesh::load_scaled(path, scale)?
-            .solid(sheet_thickness)
-            .map_err(|problem| format!("{}: {problem}", path.display()))?;
-        let solid = mesh::aligned(&solid);
-        let hydro = HydroProperties::from_surface(&solid, Vector3::zeros());
-        let integrals = solid.volume_integrals();
-        let planform = &hydro.planform;
-        let (thickness, length) = (planform.thickness, 2.0 * planform.half_extents.y);
-        let inertia = integrals.unit_inertia().diagonal();
-        Ok(Self::built(
-            hydro,
-            integrals.volume,
-            inertia,
-            thickness,
-            length,
-            Outline::Round,
-            true,
-        ))
-    }
-
-    fn built(
-        hydro: HydroProperties,
-        volume: f64,
-        unit_inertia: Vec3,
-        thickness: f64,
-        length: f64,
-        outline: Outline,
-        flat: bool,
-    ) -> Self {
-        // Lying flat: the plate normal up, the long axis along x.
-        let lying = Matrix3::from_columns(&[Vec3::x(), -Vec3::z(), Vec3::y()]);
-        let to_plate = hydro.planform.axes.matrix().transpose();
-        let level = if flat {
-            Quat::from_rotation_matrix(&Rotation3::from_matrix_unchecked(lying * to_plate))
-        } else {
-            Quat::identity()
-        };
+impl Exact {
+    /// Of a body whose mean squares of the coordinates are those of a box of extents `size` times `share` over 12.
+    fn new(volume: f64, size: Vec3, share: f64) -> Self {
+        let square = size.component_mul(&size) * (share / 12.0);
+        let inertia = Vec3::new(
+            square.y + square.z,
+            square.z + square.x,
+            square.x + square.y,
+        );
         Self {
             volume,
-            unit_inertia: Matrix3::from_diagonal(&unit_inertia),
+            inertia: Matrix3::from_diagonal(&inertia) * volume,
+        }
+    }
+
+    /// Of a cylinder about y whose cross-section is an ellipse.
+    fn elliptic_cylinder(major: f64, height: f64, minor: f64) -> Self {
+        let volume = PI / 4.0 * major * minor * height;
+        // The mean square across an ellipse is a sixteenth of its axis squared, along a box a twelfth.
+        let round = (12.0_f64 / 16.0).sqrt();
+        Self::new(volume, Vec3::new(major * round, height, minor * round), 1.0)
+    }
+
+    fn of(shape: ShapeName, size: &[f64]) -> Option<Self> {
+        let all = || Vec3::new(size[0], size[1], size[2]);
+        match shape {
+            ShapeName::Ball => {
+                let diameter = size[0];
+                let volume = PI / 6.0 * diameter.powi(3);
+                Some(Self::new(volume, Vec3::repeat(diameter), 12.0 / 20.0))
+            }
+            ShapeName::Box | ShapeName::Plate => Some(Self::new(all().product(), all(), 1.0)),
+            ShapeName::Disc | ShapeName::Cylinder => {
+                Some(Self::elliptic_cylinder(size[0], size[1], size[0]))
+            }
+            ShapeName::Ellipse => Some(Self::elliptic_cylinder(size[0], size[2], size[1])),
+            ShapeName::Ellipsoid | ShapeName::Leaf => {
+                Some(Self::new(PI / 6.0 * all().product(), all(), 12.0 / 20.0))
+            }
+            ShapeName::Cone | ShapeName::Capsule | ShapeName::Airplane | ShapeName::Mesh => None,
+        }
+    }
+}
+
+impl Specimen {
+    /// Makes a body from what the command line asks for.
+    ///
+    /// # Errors
+    /// What is wrong with its shape.
+    pub fn new(shaped: &Shaped) -> Result<Self, String> {
+        let Shaped {
+            shape, size, solid, ..
+        } = shaped;
+        let (surface, exact) = match Exact::of(*shape, size) {
+            Some(exact) => (shaped.surface()?, exact),
+            None => integrated(shaped)?,
+        };
+        let hydro = match (solid, shape) {
+            // The frame of a cone has its origin elsewhere.
+            (Solid::Shape(shape), name) if *name != ShapeName::Cone => {
+                HydroProperties::from_shape(&**shape).map_err(|error| error.to_string())?
+            }
+            _ => HydroProperties::from_surface(&surface, Vec3::zeros()),
+        };
+        let plate = &hydro.planform;
+        let chord = 2.0 * plate.half_extents.y;
+        let sorted = |size: &[f64]| {
+            let mut size = size.to_vec();
+            size.sort_by(f64::total_cmp);
+            size
+        };
+        let (thickness, length) = match (*shape, &size[..]) {
+            (ShapeName::Box | ShapeName::Plate | ShapeName::Ellipsoid | ShapeName::Leaf, size) => {
+                let [thin, middle, _] = sorted(size)[..] else {
+                    unreachable!("three lengths");
+                };
+                (thin, middle)
+            }
+            (ShapeName::Disc, size) => (size[1], size[0]),
+            (ShapeName::Ellipse, size) => (size[2], size[1]),
+            (ShapeName::Ball, size) => (size[0], size[0]),
+            (ShapeName::Cylinder | ShapeName::Cone | ShapeName::Capsule, size) => {
+                (size[0].min(size[1]), size[0])
+            }
+            (ShapeName::Airplane | ShapeName::Mesh, _) => (plate.thickness, chord),
+        };
+        let outline = match shape {
+            ShapeName::Box | ShapeName::Plate => Outline::Rectangular,
+            _ => Outline::Round,
+        };
+        let lies_flat = matches!(
+            shape,
+            ShapeName::Plate
+                | ShapeName::Disc
+                | ShapeName::Ellipse
+                | ShapeName::Leaf
+                | ShapeName::Mesh
+        );
+        // Lying flat: the plate normal up, the long axis along x.
+        let lying = Matrix3::from_columns(&[Vec3::x(), -Vec3::z(), Vec3::y()]);
+        let to_plate = plate.axes.matrix().transpose();
+        let turned = |matrix| Quat::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+        let level = match shape {
+            // Its keel, along −z in its own frame, is down.
+            ShapeName::Airplane => turned(lying),
+            _ if lies_flat => turned(lying * to_plate),
+            _ => Quat::identity(),
+        };
+        Ok(Self {
+            volume: exact.volume,
+            unit_inertia: exact.inertia,
             thickness,
             length,
-            span: 2.0 * hydro.planform.half_extents.x,
+            span: 2.0 * plate.half_extents.x,
             outline,
+            solid: surface,
             level,
             hydro,
-        }
+        })
     }
 
     /// Mass properties at a density, kg/m³.
@@ -278,65 +198,36 @@ impl Specimen {
         tilt * self.level
     }
 
-    /// I* with the body's density, kg/m³: πρ_s t/(64ρ_f d) for round bodies (d the diameter or minor
-    /// axis), 8ρ_s(a² + b²)b/(3πρ_f a³) for plates and boxes (a the chord, b the thickness).
-    pub fn i_star(&self, density: f64, fluid: &Fluid) -> f64 {
-        let ratio = density / f64::from(fluid.density());
-        let (a, b) = (self.length, self.thickness);
-        match self.outline {
-            Outline::Round => PI * ratio * b / (64.0 * a),
-            Outline::Rectangular => 8.0 * ratio * (a * a + b * b) * b / (3.0 * PI * a.powi(3)),
-        }
-    }
-
-    /// U0 = √(|ρ_s/ρ_f − 1| g t), m/s.
-    pub fn u0(&self, density: f64, fluid: &Fluid, gravity: f64) -> f64 {
-        ((density / f64::from(fluid.density()) - 1.0).abs() * gravity * self.thickness).sqrt()
+    /// U0, Re and I* at a density, kg/m³, and gravity, m/s²; d is the diameter or minor axis of what is round, a the chord of
+    /// plates and boxes.
+    ///
+    /// # Errors
+    /// Those of [`DimensionlessNumbers::new`].
+    pub fn numbers(
+        &self,
+        density: f64,
+        fluid: &Fluid,
+        gravity: f64,
+    ) -> Result<DimensionlessNumbers, Error> {
+        let (length, thickness) = (self.length, self.thickness);
+        DimensionlessNumbers::new(self.outline, length, thickness, density, fluid, gravity)
     }
 }
 
-fn from_shape(shape: &SharedShape) -> Result<HydroProperties, String> {
-    HydroProperties::from_shape(&**shape).map_err(|error| error.to_string())
-}
-
-fn sorted(mut lengths: [f64; 3]) -> [f64; 3] {
-    lengths.sort_by(f64::total_cmp);
-    lengths
-}
-
-/// An elliptic cylinder, x along the major axis, y the thickness; a polygon of the same area.
-fn elliptic_plate(major: f64, minor: f64, thickness: f64) -> Result<Surface, String> {
-    const AROUND: u32 = 96;
-    let step = TAU / f64::from(AROUND);
-    let grow = (step / step.sin()).sqrt();
-    let mut vertices = Vec::new();
-    for y in [0.5 * thickness, -0.5 * thickness] {
-        vertices.push(Vec3::new(0.0, y, 0.0));
-        vertices.extend((0..AROUND).map(|i| {
-            let (sin, cos) = (step * f64::from(i)).sin_cos();
-            Vec3::new(0.5 * major * grow * cos, y, 0.5 * minor * grow * sin)
-        }));
-    }
-    let below = AROUND + 1;
-    let mut triangles = Vec::new();
-    for i in 0..AROUND {
-        let (a, b) = (1 + i, 1 + (i + 1) % AROUND);
-        triangles.push([0, b, a]);
-        triangles.push([below, below + a, below + b]);
-        triangles.push([a, b, below + b]);
-        triangles.push([a, below + b, below + a]);
-    }
-    Surface::new(&vertices, &triangles).map_err(|error| error.to_string())
-}
-
-/// An ellipsoid of full extents x, y, z; a polyhedron of the same volume.
-fn ellipsoid(extents: [f64; 3]) -> Result<Surface, String> {
-    let ball = Surface::from_shape(&*SharedShape::ball(0.5)).map_err(|error| error.to_string())?;
-    let stretch = Vec3::from(extents);
-    let vertices: Vec<Vec3> = ball
-        .vertices()
-        .iter()
-        .map(|v| v.component_mul(&stretch))
-        .collect();
-    Surface::new(&vertices, ball.triangles()).map_err(|error| error.to_string())
+/// A surface, and what integrals over it say. It is moved to its center of mass; a mesh, which may lie at any angle, is turned to
+/// its principal axes, too.
+fn integrated(shaped: &Shaped) -> Result<(Surface, Exact), String> {
+    let solid = shaped.surface()?;
+    let solid = if shaped.shape == ShapeName::Mesh {
+        mesh::aligned(&solid)
+    } else {
+        let center = solid.volume_integrals().centroid;
+        solid.map(|v| v - center)
+    };
+    let integrals = solid.volume_integrals();
+    let exact = Exact {
+        volume: integrals.volume,
+        inertia: integrals.unit_inertia(),
+    };
+    Ok((solid, exact))
 }

@@ -86,16 +86,16 @@ impl Summary {
     pub fn json(&self) -> Value {
         json!({
             "landed": self.landed,
-            "fall_time": self.fall_time,
-            "descent": self.descent,
-            "drift": self.drift,
-            "spread": self.spread,
+            "fall_time_s": self.fall_time,
+            "descent_mps": self.descent,
+            "drift_m": self.drift,
+            "spread_m": self.spread,
             "turns": self.turns,
-            "pile_height": self.pile_height,
+            "pile_height_m": self.pile_height,
             "at_rest": self.at_rest,
             "falling_step_ms": self.falling_step,
             "landed_step_ms": self.landed_step,
-            "wall_time": self.wall_time,
+            "wall_time_s": self.wall_time,
         })
     }
 }

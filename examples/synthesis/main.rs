@@ -14,7 +14,7 @@
 //! * `synthesis_chain.svg`: the states and probabilities of the Markov chain, for each main regime,
 //! * `synthesis_wind.svg`: how a trajectory is bent by the wind, step by step,
 //! * `synthesis_frames.svg`: the graph of frames beside that of regimes,
-//! * `synthesis_tree.svg`: leaves from a tree, sampled with the main regime that the thesis prints for its
+//! * `synthesis_tree.svg`, `synthesis_tree.html` (plays in a browser): leaves from a tree, sampled with the main regime that the thesis prints for its
 //!   leaf, with collisions.
 //!
 //! Printed: Re and I* of the three bodies as the thesis prints them and as they are computed, the regime
@@ -42,23 +42,25 @@ use serde_json::json;
 use std::path::PathBuf;
 use std::process::exit;
 use std::sync::Arc;
+use support::film::FilmArgs;
+use support::options::{Count, Json, Out, Seed};
 
 /// Own falls whose motion classes are shown.
 const OBSERVED: u64 = 3000;
 
 /// Draws the figures of thesis chapter 3.
 #[derive(Parser)]
-#[command(name = "synthesis")]
+#[command(name = "synthesis", version)]
+#[command(mut_arg("count", |count| count.default_value("40")))]
 struct Arguments {
-    /// Directory for the pictures
-    #[arg(long, default_value = "out")]
-    out: PathBuf,
-    /// Seed of everything random
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Leaves that fall from the tree
-    #[arg(long, default_value_t = 40, value_parser = clap::value_parser!(u64).range(1..=2000))]
-    leaves: u64,
+    #[command(flatten)]
+    film: FilmArgs,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    count: Count,
     /// Bake the default database into this file, and do nothing else
     #[arg(long)]
     write_database: Option<PathBuf>,
@@ -69,9 +71,8 @@ struct Arguments {
     /// Falls that are computed for it
     #[arg(long, default_value_t = 12_000, value_parser = clap::value_parser!(u64).range(100..))]
     falls: u64,
-    /// Print numbers as JSON instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: Json,
 }
 
 /// A worked body of thesis § 3.6.
@@ -131,14 +132,7 @@ fn bodies() -> Result<[Body; 3], Error> {
 }
 
 fn main() {
-    let arguments = Arguments::try_parse().unwrap_or_else(|error| {
-        if !error.use_stderr() {
-            error.exit();
-        }
-        let message = error.to_string();
-        eprintln!("{}", message.lines().next().unwrap_or_default());
-        exit(2)
-    });
+    let arguments: Arguments = support::cli::parse();
     if let Err(error) = run(&arguments) {
         eprintln!("error: {error}");
         exit(1)
@@ -165,8 +159,8 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
         );
         return Ok(());
     }
-    std::fs::create_dir_all(&arguments.out)
-        .map_err(|error| format!("cannot create {}: {error}", arguments.out.display()))?;
+    std::fs::create_dir_all(&arguments.out.folder)
+        .map_err(|error| format!("cannot create {}: {error}", arguments.out.folder.display()))?;
     let database = TrajectoryDatabase::shipped();
     let bodies = bodies()?;
     let diagram = PhaseDiagram::default();
@@ -175,7 +169,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
         let numbers = &body.numbers;
         let printed = diagram.regime(case.reynolds, case.i_star).to_string();
         let computed = diagram.regime_of(numbers).to_string();
-        if !arguments.json {
+        if !arguments.json.on {
             println!(
                 "{}: printed Re {:.3e}, I* {:.2e} ({printed}; the thesis sees {}); computed Re {:.3e} by its (3.3), \
                  U {:.3} m/s, and {:.3e} of the mean descent, I* {:.2e} ({computed})",
@@ -207,7 +201,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
             },
         }));
     }
-    let (out, seed) = (&arguments.out, arguments.seed);
+    let (out, seed) = (&arguments.out.folder, arguments.seed.value);
     figures::database(out, &database)?;
     figures::patterns(out, &bodies[2], &database, seed)?;
     figures::bodies(out, &bodies, &database, seed)?;
@@ -218,7 +212,13 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let chain = chain::chain(out)?;
     let wind = chain::bent(out, &bodies[2], &database, seed)?;
     let frames = chain::frames(out, &bodies[2], &database, seed)?;
-    let report = tree::draw(out, &bodies[2], &database, arguments.leaves, seed)?;
+    let report = tree::draw(
+        (&arguments.out, &arguments.film),
+        &bodies[2],
+        &database,
+        arguments.count.within(1..=2000).into(),
+        seed,
+    )?;
     let all = json!({
         "bodies": rows,
         "classes": classes,
@@ -227,7 +227,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
         "frames": frames,
         "tree": report,
     });
-    if arguments.json {
+    if arguments.json.on {
         println!("{all:#}");
     } else {
         println!(

@@ -3,6 +3,9 @@
 use super::Body;
 use super::draw::{self, Item, Panel};
 use super::figures::{color, legend};
+use super::support::film::FilmArgs;
+use super::support::options::Out;
+use super::support::reel::Reel;
 use plotters::prelude::RGBColor;
 use rapier3d_immersed::motion::Regime;
 use rapier3d_immersed::motion::path::{SynthesisParams, TrajectoryDatabase};
@@ -11,7 +14,6 @@ use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, Immersion, RapierSets, preset};
 use serde_json::{Value, json};
 use std::error::Error;
-use std::path::Path;
 use std::sync::Arc;
 
 /// Where the leaves hang.
@@ -28,7 +30,7 @@ const TWIGS: [[[Real; 2]; 2]; 4] = [
 ];
 
 pub fn draw(
-    out: &Path,
+    (out, film): (&Out, &FilmArgs),
     leaf: &Body,
     database: &Arc<TrajectoryDatabase>,
     leaves: u64,
@@ -83,6 +85,8 @@ pub fn draw(
         players.play(handle, &player)?;
         handles.push((handle, player));
     }
+    let mut reel = Reel::new(&world, 30.0);
+    reel.keep(&world, Some(&immersion));
     // Positions of each leaf, and what moved it: its regime, or forces.
     let mut trails: Vec<Vec<(draw::Point, Option<Regime>)>> = vec![Vec::new(); handles.len()];
     let released: Vec<_> = handles
@@ -93,6 +97,7 @@ pub fn draw(
     for _ in 0..720 {
         players.before_step(&mut RapierSets::of(&mut world), Some(&mut immersion));
         immersion.step(&mut world);
+        reel.keep(&world, Some(&immersion));
         for (i, (handle, player)) in handles.iter().enumerate() {
             let p = world.bodies[*handle].translation();
             let regime = match players.playing(*handle) {
@@ -137,7 +142,8 @@ pub fn draw(
         .filter(|(handle, _)| world.bodies[*handle].linvel().length() < 0.05)
         .count();
     panel.items.push(Item::Dots(rest, RGBColor(60, 120, 40), 4));
-    let path = out.join("synthesis_tree.svg");
+    reel.write(("synthesis_tree", "Leaves from a tree"), None, out, film);
+    let path = out.path("synthesis_tree.svg");
     let title = "Leaves from a tree, with collisions (thesis Fig. 3.18)";
     let mut legend = legend();
     legend.push(("force model".into(), FORCES));

@@ -22,7 +22,7 @@ pub const RUNS: &[Run] = &[
         "",
         &["--only", "linear,falling,coupled,kirchhoff,driven,planar"],
     ),
-    Run::new("methods", BOTH, &[]),
+    Run::new("methods", BOTH, &["--gif"]),
 ];
 
 /// In the order of the thesis.

@@ -19,6 +19,7 @@ mod entry;
 mod page;
 mod timings;
 
+use clap::Parser;
 use contents::{COMMAND, RUNS, chapters};
 use entry::{Entry, Ours, Run};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -28,16 +29,25 @@ use std::error::Error;
 use std::path::Path;
 use std::process::Command;
 
+/// Makes `docs/thesis.md` and its pictures.
+#[derive(Parser)]
+#[command(name = "thesis", version)]
+struct Options {
+    /// Only write the page again, from what was measured last
+    #[arg(long)]
+    render: bool,
+}
+
 fn main() {
-    if let Err(problem) = run() {
+    if let Err(problem) = run(&Options::parse()) {
         eprintln!("error: {problem}");
         std::process::exit(1);
     }
 }
 
-fn run() -> Result<(), Box<dyn Error>> {
+fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
-    if std::env::args().any(|argument| argument == "--render") {
+    if options.render {
         let measured = std::fs::read_to_string(docs.join("thesis.json"))?;
         return write_page(&docs, &serde_json::from_str(&measured)?);
     }

@@ -4,6 +4,7 @@
 //! ```text
 //! cargo run --release --example tracks              # with the fits of tests/data/paper/fits.csv: a second
 //! cargo run --release --example tracks -- --fit     # fits anew: minutes
+//! cargo run --release --example tracks -- --track fall.csv --shape disc --size 0.02,0.0015 --density 2700 --fluid water
 //! ```
 //!
 //! * **Forecasts.** The state at the first frame is estimated from 0.2 s of the track, under the default law as
@@ -11,6 +12,9 @@
 //!   goes straight on, and beside the measured repeat of the experiment.
 //! * **Identification.** Coefficients of the law are fitted to 0.41 s of one track, with deviations and
 //!   residual, and tried on the repeat, of which only the state is estimated.
+//!
+//! With `--track` it is a track of yours: printed is when the default law's fall from the same start parts from it, and how far;
+//! `track.html` plays both side by side.
 //!
 //! `tracks.svg` has the paths with the attitude of the paper (as thesis Fig. 3.6 has them), `tracks_errors.svg`
 //! the errors over time and the coefficients, `fits.csv` the fits.
@@ -21,7 +25,10 @@ mod draw;
 mod fits;
 mod forecast;
 mod measured;
+mod own;
 mod picture;
+#[path = "../support/mod.rs"]
+mod support;
 
 use clap::Parser;
 use fits::{FAMILIES, FallFit};
@@ -29,29 +36,35 @@ use forecast::{DEFAULT, FITTED, Family, KNOWN, PHYSICAL, THESIS, moved, straight
 use measured::{Fall, divergence};
 use rayon::prelude::*;
 use serde_json::json;
-use std::path::PathBuf;
 use std::process::ExitCode;
+use support::options::{Json, Out};
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// Measured falls of paper beside this crate's.
+/// Measured falls of paper, or one of your own, beside this crate's.
+///
+/// A body of a --track has 800 kg/m³ without --density.
 #[derive(Parser)]
-#[command(name = "tracks")]
+#[command(name = "tracks", version)]
 struct Arguments {
     /// Fit anew instead of taking the fits of tests/data/paper/fits.csv
     #[arg(long)]
     fit: bool,
-    /// Directory for the pictures and fits.csv
-    #[arg(long, default_value = "out")]
-    out: PathBuf,
-    /// Print numbers as JSON instead of text
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    own: own::OwnArgs,
+    #[command(flatten)]
+    out: Out,
+    #[command(flatten)]
+    json: Json,
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match run(&arguments) {
+    let arguments: Arguments = support::cli::parse();
+    let outcome = match arguments.own.track.text() {
+        Some(text) => own::compare(&text, &arguments),
+        None => run(&arguments),
+    };
+    match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("error: {problem}");
@@ -62,7 +75,7 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<(), Failure> {
     let say = |line: String| {
-        if !arguments.json {
+        if !arguments.json.on {
             println!("{line}");
         }
     };
@@ -144,7 +157,7 @@ fn run(arguments: &Arguments) -> Result<(), Failure> {
             );
         }
     }
-    let out = &arguments.out;
+    let out = &arguments.out.folder;
     std::fs::create_dir_all(out)?;
     let write = |name: &str, text: String| {
         let file = out.join(name);
@@ -157,7 +170,7 @@ fn run(arguments: &Arguments) -> Result<(), Failure> {
     )?;
     write("fits.csv", FallFit::csv(&fits))?;
     say(format!("Pictures and fits are in {}.", out.display()));
-    if arguments.json {
+    if arguments.json.on {
         println!(
             "{:#}",
             json!({ "forecasts": rows, "identified": identified })

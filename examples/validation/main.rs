@@ -18,25 +18,23 @@ mod support;
 
 use clap::Parser;
 use published::{Effort, SectionName, report};
-use std::path::PathBuf;
 use std::process::exit;
+use support::options::{Json, Only, Out};
 
 /// Compares this crate with measurements and exact results.
 #[derive(Parser)]
-#[command(name = "validation")]
+#[command(name = "validation", version)]
+#[command(mut_arg("out", |out| out.default_value("out/validation")))]
 struct Arguments {
-    /// Sections to compute, comma separated; all if absent
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "SECTION")]
-    only: Vec<SectionName>,
+    #[command(flatten)]
+    only: Only<SectionName>,
     /// Fewer and shorter runs, for a look or a test: seconds
     #[arg(long)]
     quick: bool,
-    /// Print JSON instead of the table
-    #[arg(long)]
-    json: bool,
-    /// Directory for validation.json and the pictures
-    #[arg(long, default_value = "out/validation")]
-    out: PathBuf,
+    #[command(flatten)]
+    json: Json,
+    #[command(flatten)]
+    out: Out,
 }
 
 fn main() {
@@ -47,7 +45,7 @@ fn main() {
         Effort::Full
     };
     let mut sections = Vec::new();
-    for name in SectionName::chosen(&arguments.only) {
+    for name in SectionName::chosen(&arguments.only.only) {
         let bar = support::cli::progress(1000, name.title());
         let section = name.compute(effort, &|share| bar.set_position((1000.0 * share) as u64));
         bar.finish_and_clear();
@@ -56,18 +54,22 @@ fn main() {
             exit(1)
         });
         for (file, svg) in &section.pictures {
-            support::cli::write(&arguments.out.join(file), svg);
+            arguments.out.write(file, svg);
         }
         sections.push(section);
     }
     let json = report::json(&sections);
-    let file = arguments.out.join("validation.json");
-    support::cli::write(&file, format!("{json:#}\n"));
-    if arguments.json {
+    arguments
+        .out
+        .write("validation.json", format!("{json:#}\n"));
+    if arguments.json.on {
         println!("{json:#}");
         return;
     }
     print!("{}", report::table(&sections));
     println!("\n{}", report::summary(&sections));
-    println!("Numbers and pictures are in {}.", arguments.out.display());
+    println!(
+        "Numbers and pictures are in {}.",
+        arguments.out.folder.display()
+    );
 }

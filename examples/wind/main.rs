@@ -14,6 +14,9 @@
 mod draw;
 mod paths;
 
+#[path = "../support/mod.rs"]
+mod support;
+
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use rapier3d_immersed::flow::{SpectralWind, WindParams};
@@ -23,29 +26,38 @@ use rapier3d_immersed::turbulence::{
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
+use support::options::{Json, Out, Seed};
 
 /// Draws wind fields, their spectra, and the baked turbulence.
 #[derive(Parser)]
+#[command(name = "wind", version)]
 struct Arguments {
-    /// Directory for the pictures.
-    #[arg(long, default_value = "out")]
-    out: PathBuf,
-    /// Mean wind speed at 10 m height, m/s.
-    #[arg(long, default_value_t = 4.0, allow_negative_numbers = true)]
+    #[command(flatten)]
+    out: Out,
+    /// Mean wind speed at a height of 10 m, m/s
+    #[arg(
+        long,
+        value_name = "M/S",
+        default_value_t = 4.0,
+        allow_negative_numbers = true
+    )]
     speed: f64,
-    /// Roughness length of the ground, m.
-    #[arg(long, default_value_t = 0.3, allow_negative_numbers = true)]
+    /// Roughness length of the ground, m
+    #[arg(
+        long,
+        value_name = "M",
+        default_value_t = 0.3,
+        allow_negative_numbers = true
+    )]
     roughness: f64,
-    /// Nodes of the wind field along each horizontal axis.
-    #[arg(long, default_value_t = 100)]
+    /// Nodes of the wind field along each horizontal axis
+    #[arg(long, value_name = "N", default_value_t = 100)]
     nodes: usize,
-    /// Seed of the random gusts.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Print numbers as JSON instead of text.
-    #[arg(long)]
-    json: bool,
-    /// Also write the baked history as a table file, the one that the crate ships.
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    json: Json,
+    /// Also write the baked history as a table file, the one that the crate ships
     #[arg(long, value_name = "PATH")]
     write_default_table: Option<PathBuf>,
 }
@@ -81,7 +93,7 @@ impl Arguments {
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments: Arguments = support::cli::parse();
     if let Some(complaint) = arguments.complaint() {
         eprintln!("error: {complaint}");
         return ExitCode::from(2);
@@ -96,31 +108,31 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
-    std::fs::create_dir_all(&arguments.out)?;
+    std::fs::create_dir_all(&arguments.out.folder)?;
     let params = |preset: WindParams| WindParams {
         mean_speed: arguments.speed,
         roughness: arguments.roughness,
         nodes: [arguments.nodes, arguments.nodes, 1],
-        seed: arguments.seed,
+        seed: arguments.seed.value,
         ..preset
     };
     let thesis = params(WindParams::thesis());
     let wind = SpectralWind::bake(&thesis)?;
-    draw::field(&arguments.out.join("field_thesis.svg"), &wind, &thesis)?;
+    draw::field(&arguments.out.path("field_thesis.svg"), &wind, &thesis)?;
     let params = params(WindParams::default());
     let clock = Instant::now();
     let wind = SpectralWind::bake(&params)?;
     let wind_time = clock.elapsed().as_secs_f64();
-    draw::field(&arguments.out.join("field.svg"), &wind, &params)?;
+    draw::field(&arguments.out.path("field.svg"), &wind, &params)?;
     draw::spectra(
-        &arguments.out.join("spectra.svg"),
+        &arguments.out.path("spectra.svg"),
         &params,
         &spectra(&params)?,
     )?;
 
     let winds = paths::SPEEDS.map(|speed| paths::Paths::fly(&params, speed));
     let winds: Vec<_> = winds.into_iter().collect::<Result<_, _>>()?;
-    paths::draw(&arguments.out.join("paths.svg"), &winds)?;
+    paths::draw(&arguments.out.path("paths.svg"), &winds)?;
 
     let bar = ProgressBar::new(1000).with_style(ProgressStyle::with_template(
         "baking turbulence {bar:40} {percent} % {eta}",
@@ -142,17 +154,17 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let (_, nothing) = bake(ShearSource::Nothing, 0, TurbulenceParams::thesis())?;
     bar.finish_and_clear();
     draw::history(
-        &arguments.out.join("history.svg"),
+        &arguments.out.path("history.svg"),
         &plate,
         &thesis,
         &nothing,
     )?;
-    draw::stream(&arguments.out.join("stream.svg"), &table, &plate)?;
+    draw::stream(&arguments.out.path("stream.svg"), &table, &plate)?;
     if let Some(path) = &arguments.write_default_table {
         std::fs::write(path, table.clone().without_field().to_bytes())?;
     }
     report(arguments, &wind, wind_time, bake_time, &plate, &table);
-    if !arguments.json {
+    if !arguments.json.on {
         for wind in &winds {
             println!(
                 "leaves from 10 m height at {} m/s: {:.0} m off",
@@ -222,7 +234,7 @@ fn report(
     let chi = |state: &TurbulenceState| state.turnover_rate();
     let history = table.history();
     let peak = history.iter().map(chi).fold(0.0, f32::max);
-    if arguments.json {
+    if arguments.json.on {
         let text = serde_json::json!({
             "friction_velocity_m_s": friction,
             "gust_deviation_m_s": deviation,
@@ -233,7 +245,7 @@ fn report(
             "worst_divergence": plate.worst_divergence,
             "unconverged_steps": plate.unconverged_steps,
             "largest_courant": plate.largest_courant,
-            "pictures": arguments.out,
+            "pictures": arguments.out.folder,
         });
         println!("{text}");
         return;
@@ -254,7 +266,7 @@ fn report(
     if let Some(time) = plate.left_box_at {
         println!("  the particle left the box at {time:.2} L/U₀");
     }
-    println!("pictures in {}", arguments.out.display());
+    println!("pictures in {}", arguments.out.folder.display());
 }
 
 /// Spectrum S(n) of a component in the neutral surface layer, Kaimal et al. (1972).

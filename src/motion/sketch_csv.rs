@@ -13,14 +13,15 @@ const UNITS: [(&str, f64); 5] = [
     ("ms", 1e-3),
 ];
 
-/// What a column holds (0 the time, 1 to 3 the place) and its unit.
-type Column = (usize, f64);
+/// What a column holds (0 the time, 1 to 3 the place) and its unit; none of what is not read.
+type Column = Option<(usize, f64)>;
 
 impl Sketch {
     /// Reads a sketch from a table: time and place of one point per row, in s and m, world axes, y up.
     ///
     /// A first row may name the columns (t or time, x, y, z, in any order, z may be missing) with units, in brackets of any
-    /// kind or after an underscore: s, ms, m, cm, mm. Values are parted by commas, semicolons or tabs; what follows a `#` is a comment.
+    /// kind or after an underscore: s, ms, m, cm, mm. Columns of other names (an attitude, velocities) are not read. Values are parted
+    /// by commas, semicolons or tabs; what follows a `#` is a comment.
     ///
     /// ```
     /// use rapier3d_immersed::motion::Sketch;
@@ -42,7 +43,7 @@ impl Sketch {
             .map(|line| line.split('#').next().unwrap_or_default().trim())
             .filter(|line| !line.is_empty())
             .zip(1..);
-        let mut columns: Vec<Column> = (0..4).map(|index| (index, 1.0)).collect();
+        let mut columns: Vec<Column> = (0..4).map(|index| Some((index, 1.0))).collect();
         let mut points = Vec::new();
         for (line, row) in rows {
             let values: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
@@ -59,7 +60,10 @@ impl Sketch {
                 return Err(unreadable(line));
             }
             let mut point = [0.0; 4];
-            for (value, (place, unit)) in values.iter().zip(&columns) {
+            for (value, column) in values.iter().zip(&columns) {
+                let Some((place, unit)) = column else {
+                    continue;
+                };
                 let number: f64 = value.parse().map_err(|_| unreadable(value))?;
                 point[*place] = number * unit;
             }
@@ -74,34 +78,45 @@ impl Sketch {
 fn header<'a>(names: &[&'a str]) -> Result<Vec<Column>, &'a str> {
     let mut columns: Vec<Column> = Vec::new();
     for name in names {
-        let column = column(name).ok_or(*name)?;
-        if columns.iter().any(|(place, _)| *place == column.0) {
+        let column = column(name)?;
+        if column.is_some_and(|(place, _)| holds(&columns, place)) {
             return Err(name);
         }
         columns.push(column);
     }
-    let all = (0..3).all(|place| columns.iter().any(|(own, _)| *own == place));
-    if all { Ok(columns) } else { Err(names[0]) }
+    if (0..3).all(|place| holds(&columns, place)) {
+        Ok(columns)
+    } else {
+        Err(names[0])
+    }
 }
 
-fn column(name: &str) -> Option<Column> {
+fn holds(columns: &[Column], place: usize) -> bool {
+    columns.iter().flatten().any(|(own, _)| *own == place)
+}
+
+/// What a column of this name holds.
+fn column(name: &str) -> Result<Column, &str> {
     let mut parts = name
         .split(|c: char| !c.is_alphanumeric())
         .filter(|part| !part.is_empty());
-    let place = match parts.next()?.to_ascii_lowercase().as_str() {
+    let place = match parts.next().ok_or(name)?.to_ascii_lowercase().as_str() {
         "t" | "time" => 0,
         "x" => 1,
         "y" => 2,
         "z" => 3,
-        _ => return None,
+        _ => return Ok(None),
     };
     let Some(unit) = parts.next() else {
-        return Some((place, 1.0));
+        return Ok(Some((place, 1.0)));
     };
     // A time has a unit of time, a place one of length.
     let units = if place == 0 { &UNITS[3..] } else { &UNITS[..3] };
-    let (_, factor) = units.iter().find(|(symbol, _)| *symbol == unit)?;
-    parts.next().is_none().then_some((place, *factor))
+    let known = units.iter().find(|(symbol, _)| *symbol == unit);
+    match (known, parts.next()) {
+        (Some((_, factor)), None) => Ok(Some((place, *factor))),
+        _ => Err(name),
+    }
 }
 
 #[cfg(test)]
@@ -117,6 +132,9 @@ mod tests {
             assert!((t - u).abs() < 1e-12 && (p - q).norm() < 1e-12);
         }
         assert_eq!(plain.points()[1], (0.5, Vector3::new(0.15, 1.6, -0.2)));
+        // Of a track with more in it, the times and places are read.
+        let more = "t_s,qw,x_m,y_m,z_m,vx_mps,note\n0,1,0,2,0,,let go\n0.5,1,0.15,1.6,-0.2,0.3,\n1,1,0,1.2,0,0,";
+        assert_eq!(Sketch::from_csv(more).unwrap(), plain);
     }
 
     /// What is wrong is named.

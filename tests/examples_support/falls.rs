@@ -1,11 +1,14 @@
 //! A run of `drop` is the same in rapier and in the crate's own free body, and tells a law that pumps
 //! energy from one that does not.
 
-use crate::support::cli::Lengths;
+use crate::specimens::specimen;
 use crate::support::fall::{Fall, FallOptions, IntegratorName};
 use crate::support::law::{LawName, law};
 use crate::support::picture;
-use crate::support::specimen::{ShapeName, Specimen, TiltAxis};
+use crate::support::shape::ShapeName;
+use crate::support::specimen::TiltAxis;
+use crate::support::track::Track;
+use rapier3d_immersed::motion::Sketch;
 use rapier3d_immersed::training::BodyState;
 use rapier3d_immersed::{Fluid, ImmersedBody, PhysicalLaw, ViscousLaw};
 
@@ -17,7 +20,7 @@ fn fall(
     law: ViscousLaw,
     options: &FallOptions,
 ) -> Fall {
-    let specimen = Specimen::new(shape, Some(&Lengths(size.to_vec())), None, None, 1e-3).unwrap();
+    let specimen = specimen(shape, size);
     let body = ImmersedBody::new(specimen.hydro.clone())
         .with_law(law)
         .unwrap();
@@ -76,10 +79,28 @@ fn rapier_and_the_free_body_fall_alike() {
     let (a, b) = (free.forces[1].unwrap(), rapier.forces[1].unwrap());
     assert!((a.weight.force - b.weight.force).length() < 1e-5 * a.weight.force.length());
     assert!((a.drag.force - b.drag.force).length() < 1e-2 * a.weight.force.length());
-    let lines: Vec<String> = rapier.csv().lines().map(str::to_string).collect();
+    let table = rapier.csv();
+    let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 1 + 481);
     let columns = 14 + 8 * 6;
     assert!(lines.iter().all(|line| line.split(',').count() == columns));
+    // What is written is read again: by the crate as a sketch, by the examples as a track.
+    let sketch = Sketch::from_csv(&table).unwrap();
+    let track = Track::read(&table).unwrap();
+    for (i, state) in rapier.states.iter().enumerate() {
+        let time = i as f64 / 240.0;
+        assert!((sketch.points()[i].0 - time).abs() < 1e-12);
+        assert_eq!(sketch.points()[i].1, state.position);
+        assert!((track.times[i] - time).abs() < 1e-12);
+        assert_eq!(track.places[i], state.position);
+        assert!(track.turns[i].angle_to(&state.orientation) < 1e-7);
+    }
+    // As an animation it has fewer frames, of the same steps, with the forces of each.
+    let film = rapier.recording(30.0);
+    assert_eq!((film.times.len(), film.forces.len()), (61, 61));
+    assert_eq!(film.frames[3][0].0, rapier.states[24].position);
+    let drag = rapier.forces[24].unwrap().drag.force;
+    assert_eq!(film.forces[3][0][0], [drag.x, drag.y, drag.z]);
     let picture = picture::fall(&rapier.trajectory, 0.01134).unwrap();
     assert!(picture.starts_with("<svg") && picture.trim_end().ends_with("</svg>"));
 }
@@ -94,7 +115,7 @@ fn a_light_sphere_rises_as_its_added_mass_lets_it() {
     };
     let inviscid = ViscousLaw::Inviscid;
     let fall = fall(
-        ShapeName::Sphere,
+        ShapeName::Ball,
         &[0.1],
         100.0,
         &Fluid::WATER,

@@ -29,6 +29,7 @@ mod wigley;
 mod airplane;
 mod animation;
 mod boat;
+mod command_lines;
 mod drawings;
 mod falls;
 mod leaves;
@@ -36,9 +37,11 @@ mod meshes;
 mod methods;
 mod pages;
 mod pond;
+mod reels;
 mod scoring;
 mod specimens;
 mod stochastic;
+mod tables;
 
 /// As in the example `methods`.
 type Failure = Box<dyn std::error::Error + Send + Sync>;

@@ -2,6 +2,7 @@
 //! up a layer, and the picture in `docs/house.svg` is that of the code.
 
 mod imports;
+mod options;
 mod picture;
 
 use imports::House;

@@ -7,6 +7,12 @@ runs.forEach((run, i) => layout.add(new Option(run.name, i)));
 layout.hidden = runs.length < 2;
 element("time").max = duration;
 
+// What is small beside its way is seen from near by, and followed.
+if (header.follow) {
+  element("follow").checked = true;
+  view.distance = header.follow;
+}
+
 const shown = () => layout.value === "all" ? runs : [runs[layout.value]];
 
 /** Where each shown run is on the page: beside each other, or on top of each other on upright screens. */
@@ -26,12 +32,12 @@ function draw() {
   const sharp = Math.min(devicePixelRatio, 2), scale = sharp * coarseness;
   fit(overlay, sharp);
   fit(scene, scale);
-  if (picked >= 0 && element("follow").checked) view.target = place(shown()[0], state.time, picked);
   gl.clearColor(0.925, 0.941, 0.953, 1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
   paint.setTransform(sharp, 0, 0, sharp, 0, 0);
   paint.clearRect(0, 0, innerWidth, innerHeight);
   for (const rect of rects()) {
+    if (picked >= 0 && element("follow").checked) view.target = place(rect.run, state.time, picked);
     const camera = cameraOf(rect);
     drawScene(camera, rect, scale, rect.run, state.time);
     paint.save();
@@ -57,7 +63,7 @@ function draw() {
 }
 
 // What tests look at: frames drawn, and when the first was (ms since the page was opened).
-const viewer = window.viewer = { drawn: 0, firstFrame: null, state, header, runs, pose, rects, cameraOf, projected, place,
+const viewer = window.viewer = { view, drawn: 0, firstFrame: null, state, header, runs, pose, rects, cameraOf, projected, place,
   get picked() { return picked; } };
 
 // Where frames take long, as on processors without graphics, bodies are drawn with fewer pixels; lines and text are not.

@@ -1,7 +1,7 @@
 // Labels, paths and arrows, which are drawn over the scene in two dimensions.
 
 // None is -1; the only one needs no picking.
-let picked = bodyCount === 1 ? 0 : -1;
+let picked = bodyCount === 1 || header.follow ? 0 : -1;
 
 function stroke(camera, rect, points, color, width) {
   paint.strokeStyle = color;

@@ -169,31 +169,53 @@ function drawScene(camera, rect, scale, run, time) {
   gl.uniform1f(solids.uniforms.ground, ground);
   gl.uniform1f(solids.uniforms.strength, 0);
   gl.enable(gl.DEPTH_TEST);
-  drawInstances(floor);
   moveTo(run, time);
+  const fine = FINE * view.distance * Math.tan(header.fieldOfView / 2) / Math.min(rect.width, rect.height);
+  const drawBodies = () => {
+    gl.useProgram(solids.made);
+    drawInstances(standing);
+    drawInstances(falling, fine);
+  };
+  if (header.water) {
+    // What is under the water is seen through it; grid and shadows lie on it, behind what is above.
+    drawBodies();
+    gl.enable(gl.BLEND);
+    gl.blendColor(0, 0, 0, 0.6);
+    gl.blendFunc(gl.CONSTANT_ALPHA, gl.ONE_MINUS_CONSTANT_ALPHA);
+    gl.depthMask(false);
+    drawInstances(floor);
+    if (camera.eye[1] > ground) drawOnFloor(camera);
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
+    return;
+  }
+  drawInstances(floor);
   if (camera.eye[1] > ground) {
     // Grid and shadows lie in the floor: they are drawn on it before anything stands on it, without depth.
     gl.disable(gl.DEPTH_TEST);
-    gl.enable(gl.BLEND);
-    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    gl.useProgram(lines.made);
-    gl.uniformMatrix4fv(lines.uniforms.camera, false, camera.matrix);
-    gl.bindVertexArray(gridArray);
-    gl.drawArrays(gl.LINES, 0, gridPoints.length / 3);
-    // Once per pixel: two shadows in one place are no darker than one.
-    gl.enable(gl.STENCIL_TEST);
-    gl.stencilFunc(gl.EQUAL, 0, 255);
-    gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
-    gl.useProgram(solids.made);
-    gl.uniform1f(solids.uniforms.strength, 0.3);
-    drawInstances(standing);
-    drawInstances(falling, Infinity);
-    gl.uniform1f(solids.uniforms.strength, 0);
-    gl.disable(gl.STENCIL_TEST);
-    gl.disable(gl.BLEND);
+    drawOnFloor(camera);
     gl.enable(gl.DEPTH_TEST);
   }
+  drawBodies();
+}
+
+/** The grid and the shadows. */
+function drawOnFloor(camera) {
+  gl.enable(gl.BLEND);
+  gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+  gl.useProgram(lines.made);
+  gl.uniformMatrix4fv(lines.uniforms.camera, false, camera.matrix);
+  gl.bindVertexArray(gridArray);
+  gl.drawArrays(gl.LINES, 0, gridPoints.length / 3);
+  // Once per pixel: two shadows in one place are no darker than one.
+  gl.enable(gl.STENCIL_TEST);
+  gl.stencilFunc(gl.EQUAL, 0, 255);
+  gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
   gl.useProgram(solids.made);
+  gl.uniform1f(solids.uniforms.strength, 0.3);
   drawInstances(standing);
-  drawInstances(falling, FINE * view.distance * Math.tan(header.fieldOfView / 2) / Math.min(rect.width, rect.height));
+  drawInstances(falling, Infinity);
+  gl.uniform1f(solids.uniforms.strength, 0);
+  gl.disable(gl.STENCIL_TEST);
+  gl.disable(gl.BLEND);
 }
