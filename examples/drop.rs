@@ -170,6 +170,7 @@ fn film(options: &Options, name: &str, specimen: &Specimen, mass: f64, fall: &Fa
         scene: &scene,
         runs: &[("immersed", &recording)],
         camera: None,
+        follow: true,
     }
     .write(&options.out, &options.filmed);
     if !options.json.on {

@@ -177,6 +177,7 @@ fn main() {
         scene: &scene,
         runs: &runs,
         camera: None,
+        follow: false,
     };
     let out = &options.out;
     let mut files = film.write(out, &options.film);

@@ -15,10 +15,13 @@ mod support;
 use clap::Parser;
 use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Error, Fluid, HydroProperties, Immersion, preset};
+use support::Vec3;
 use support::film::{FilmArgs, FrameRate};
 use support::options::{Json, Out, wrote};
-use support::reel::{Reel, corners};
+use support::reel::Reel;
+use support::scene::corners;
 use support::series::{CsvArgs, Series};
+use support::sheet::Camera;
 
 const LEAVES: usize = 200;
 /// Half extents of a leaf, m.
@@ -133,7 +136,12 @@ fn main() -> Result<(), Error> {
     }
     let film = kept.film.expect("two piles were filmed");
     let title = ("pile", "Leaves in a tray");
-    let files = film.write(title, None, &options.out, &options.film);
+    let camera = Camera {
+        eye: Vec3::new(0.35, 0.3, 0.6),
+        target: Vec3::new(0.0, 0.06, 0.0),
+        field_of_view: 0.66,
+    };
+    let files = film.write(title, Some(camera), &options.out, &options.film);
     options.csv.write(|| kept.series.csv());
     if options.json.on {
         println!("{:#}", kept.series.json());

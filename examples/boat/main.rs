@@ -248,6 +248,7 @@ fn main() {
         scene: &scene,
         runs: &[("boat", &recording)],
         camera: None,
+        follow: false,
     };
     let mut files = film.write(&options.out, &options.film);
     files.push(options.out.write("boat.svg", picture));

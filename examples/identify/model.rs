@@ -74,9 +74,10 @@ pub fn plate(inertia_ratio: f64, length: f64, speed: f64) -> Model {
         read: |text| {
             let table = Table::read(text)?;
             let [t, x, y, angle] = table.columns(["t", "x", "y", "angle"])?;
-            ascending(t)?;
+            ascending(&t)?;
             let rows = (0..t.len()).flat_map(|i| [x[i], y[i], angle[i]]);
-            Ok((t.to_vec(), rows.collect()))
+            let rows = rows.collect();
+            Ok((t, rows))
         },
         parameters: &[
             "C_T", "C_R", "A", "B", "mu", "u0", "v0", "omega0", "angle0", "x0", "y0",

@@ -119,7 +119,7 @@ pub fn reel(name: &str, rate: f64) -> Result<Reel, Failure> {
                 ("wings level", Dart::new(0.0, 240.0)),
                 ("rolled by 2°", Dart::new(turned(2.0), 240.0)),
             ];
-            filmed(rate, 6.0, Ground::Floor, runs)
+            filmed(rate, 3.2, Ground::Floor, runs)
         }
         "glider" => {
             let runs = vec![("glides", Glider::new(Build::Colliders, 240.0))];
@@ -163,25 +163,25 @@ pub fn reel(name: &str, rate: f64) -> Result<Reel, Failure> {
         }
         "arrow" => {
             let runs = vec![("let go at 10° of yaw", Arrow::new(turned(10.0), 240.0))];
-            filmed(rate, 1.2, Ground::None, runs)
+            filmed(rate, 2.0, Ground::None, runs)
         }
         "shuttlecock" => {
             let runs = vec![(
                 "thrown tail first",
                 Shuttlecock::new(25.0, turned(170.0), 480.0),
             )];
-            filmed(rate, 0.8, Ground::None, runs)
+            filmed(rate, 2.0, Ground::None, runs)
         }
         "frisbee" => {
             let runs = vec![
                 ("spinning", Frisbee::new(60.0, 240.0)),
                 ("not spinning", Frisbee::new(0.0, 240.0)),
             ];
-            filmed(rate, 3.0, Ground::Floor, runs)
+            filmed(rate, 2.6, Ground::Floor, runs)
         }
         "boomerang" => {
             let runs = vec![("returns", Boomerang::new(RETURNING, 480.0))];
-            filmed(rate, 3.0, Ground::Floor, runs)
+            filmed(rate, 2.6, Ground::Floor, runs)
         }
         _ => Err(format!("there is no film of '{name}'").into()),
     }

@@ -168,6 +168,7 @@ fn main() {
         scene: &scene,
         runs: &[("pond", &recording)],
         camera: None,
+        follow: false,
     };
     let mut files = film.write(&options.out, &options.film);
     files.push(options.out.write("pond.svg", strip));

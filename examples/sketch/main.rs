@@ -69,6 +69,7 @@ fn main() {
         scene: &scene,
         runs: &[("flown", &recording)],
         camera: None,
+        follow: false,
     };
     let files = film.write(&options.out, &options.film);
     let picture = outcome::picture(&stage, &outcomes);

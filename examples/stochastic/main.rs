@@ -101,6 +101,7 @@ fn film(options: &Options, name: &str, title: &str, case: &Case, flights: &[(Phy
         scene: &scene,
         runs: &runs,
         camera: None,
+        follow: true,
     };
     film.write(&options.out, &options.film);
 }

@@ -40,6 +40,8 @@ pub struct Film<'a> {
     pub runs: &'a [(&'a str, &'a Recording)],
     /// Where it is seen from at first; an overview without one.
     pub camera: Option<Camera>,
+    /// Whether the page follows the first body from near by, if it is too small to be seen.
+    pub follow: bool,
 }
 
 impl Film<'_> {
@@ -50,7 +52,7 @@ impl Film<'_> {
             .camera
             .unwrap_or_else(|| Camera::overview(&bounds(self.scene, &recordings)));
         let name = |kind: &str| format!("{}.{kind}", self.name);
-        let page = html::page_from(self.title, self.scene, self.runs, &camera);
+        let page = html::page_from(self.title, self.scene, self.runs, &camera, self.follow);
         let mut files = vec![out.write(&name("html"), page)];
         if let Some(first) = recordings.first() {
             files.push(out.write(&name("glb"), glb::animation(self.scene, first)));

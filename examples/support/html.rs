@@ -37,15 +37,17 @@ const LEAST_WEIGHTS: f64 = 0.01;
 pub fn page(title: &str, scene: &Scene, runs: &[(&str, &Recording)]) -> String {
     let recordings: Vec<&Recording> = runs.iter().map(|(_, recording)| *recording).collect();
     let camera = Camera::overview(&bounds(scene, &recordings));
-    page_from(title, scene, runs, &camera)
+    page_from(title, scene, runs, &camera, false)
 }
 
-/// The same, seen from a camera at first; the first body is followed from near by if it is too small to be seen from there.
+/// The same, seen from a camera at first. If it is to `follow`, the first body is followed from near by where it is too small to be
+/// seen from there.
 pub fn page_from(
     title: &str,
     scene: &Scene,
     runs: &[(&str, &Recording)],
     camera: &Camera,
+    follow: bool,
 ) -> String {
     let mut block = Block::default();
     let fixed: Vec<Value> = scene
@@ -133,7 +135,7 @@ pub fn page_from(
         "eye": camera.eye.as_slice(),
         "target": camera.target.as_slice(),
         "fieldOfView": camera.field_of_view,
-        "follow": following(scene, &bounds),
+        "follow": following(scene, &bounds).filter(|_| follow),
         "ground": ground(scene).unwrap_or(bounds[0].y),
         "water": scene.water.is_some(),
         "meshes": block.meshes,
@@ -149,18 +151,12 @@ pub fn page_from(
         .replace("{{data}}", &BASE64_STANDARD.encode(&block.bytes))
 }
 
-/// From how far the first body is followed, m: if all that move are few, and smaller than a fiftieth of where they go.
+/// From how far the first body is followed, m, if it is smaller than a thirtieth of where bodies go.
 fn following(scene: &Scene, [low, high]: &[Vec3; 2]) -> Option<f64> {
-    const FEW: usize = 4;
-    let reach = |piece: usize| {
-        let look = scene.look(piece);
-        let vertices = look.solid.vertices().iter();
-        vertices.map(Vec3::norm).fold(0.0, f64::max)
-    };
-    let all = scene.pieces.len();
-    let largest = (0..all).map(reach).fold(0.0, f64::max);
-    let hidden = (1..=FEW).contains(&all) && 25.0 * largest < (high - low).norm();
-    hidden.then(|| 16.0 * reach(0))
+    let look = scene.pieces.first().map(|_| scene.look(0))?;
+    let vertices = look.solid.vertices().iter();
+    let reach = vertices.map(Vec3::norm).fold(0.0, f64::max);
+    (15.0 * reach < (high - low).norm()).then_some(16.0 * reach)
 }
 
 /// Height of the floor's top, m: of the first obstacle, which all shadows fall on.

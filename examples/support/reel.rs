@@ -3,7 +3,7 @@
 use super::film::{Film, FilmArgs};
 use super::options::Out;
 use super::recording::{Recording, components};
-use super::scene::{Kind, Look, Obstacle, Scene, pose_parts, surface_of};
+use super::scene::{Kind, Look, Obstacle, Scene, corners, pose_parts, surface_of};
 use super::sheet::Camera;
 use super::{Quat, Vec3, from_rapier};
 use rapier3d_immersed::Immersion;
@@ -28,6 +28,9 @@ const LINE: [f32; 3] = [0.10, 0.10, 0.12];
 /// Thickness of a line over its length, and the shortest that is drawn, m.
 const SLENDER: f64 = 0.006;
 const SHORTEST: f64 = 0.02;
+
+/// So many bodies are few.
+const FEW: usize = 6;
 
 /// A joint that is drawn as a straight line between its anchors.
 struct Line {
@@ -189,6 +192,8 @@ impl Reel {
             scene: &self.scene,
             runs: &runs,
             camera,
+            // Among many, none is the one to look at.
+            follow: camera.is_none() && self.scene.pieces.len() - self.lines.len() <= FEW,
         }
         .write(out, options)
     }
@@ -227,13 +232,6 @@ fn look(solid: Arc<Surface>, color: [f32; 3]) -> Look {
         faces: Arc::new(Vec::new()),
         ball: None,
     }
-}
-
-/// The lowest and the highest of each coordinate of a surface, m.
-pub fn corners(solid: &Surface) -> [Vec3; 2] {
-    let start = Vec3::repeat(f64::INFINITY);
-    let fold = |[low, high]: [Vec3; 2], v: &Vec3| [low.inf(v), high.sup(v)];
-    solid.vertices().iter().fold([start, -start], fold)
 }
 
 /// All colliders of a body in its frame.

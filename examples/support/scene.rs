@@ -259,6 +259,13 @@ impl Scene {
     }
 }
 
+/// The lowest and the highest of each coordinate of a surface, m.
+pub fn corners(solid: &Surface) -> [Vec3; 2] {
+    let start = Vec3::repeat(f64::INFINITY);
+    let fold = |[low, high]: [Vec3; 2], v: &Vec3| [low.inf(v), high.sup(v)];
+    solid.vertices().iter().fold([start, -start], fold)
+}
+
 /// A mesh of rapier's of one of its solids.
 pub fn surface_of(
     (vertices, triangles): (

@@ -23,6 +23,15 @@ impl CsvArgs {
     }
 }
 
+/// The fewest digits that tell a number from others: of single precision, if that is where it comes from.
+fn digits(x: f64) -> String {
+    let single = x as f32;
+    if f64::from(single) == x {
+        return single.to_string();
+    }
+    x.to_string()
+}
+
 /// A whole number as it is, another with four significant digits.
 fn short(x: f64) -> String {
     if x == x.round() && x.abs() < 1e9 {
@@ -64,7 +73,7 @@ impl Series {
     pub fn csv(&self) -> String {
         let mut text = format!("{},{}\n", self.columns.join(","), self.part);
         for (part, row) in &self.rows {
-            let numbers: Vec<String> = row.iter().map(f64::to_string).collect();
+            let numbers: Vec<String> = row.iter().map(|x| digits(*x)).collect();
             let part = part.replace(',', ";");
             text += &format!("{},{part}\n", numbers.join(","));
         }

@@ -2,7 +2,7 @@
 
 use super::picture::Failure;
 use super::recording::Recording;
-use super::scene::{Kind, Look, Scene, convex_outline, pose_parts};
+use super::scene::{Look, Scene, convex_outline, corners, pose_parts};
 use super::{Quat, Vec3};
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
@@ -55,16 +55,21 @@ impl Camera {
 /// Two corners of a box in which nearly everything is nearly always, and what is largest fits beside its middle: those few pieces
 /// that roll or blow away are not worth a view ten times as wide.
 pub fn bounds(scene: &Scene, recordings: &[&Recording]) -> [Vec3; 2] {
-    let reach = |kind: &Kind| {
-        let vertices = kind.solid.vertices().iter();
-        vertices.map(Vec3::norm).fold(0.0, f64::max)
-    };
-    let widest = scene.kinds.iter().map(reach).fold(0.0, f64::max);
+    // Of each kind its middle in its own frame, and how far it reaches from there.
+    let boxes: Vec<(Vec3, f64)> = scene
+        .kinds
+        .iter()
+        .map(|kind| {
+            let [low, high] = corners(&kind.solid);
+            (0.5 * (low + high), 0.5 * (high - low).norm())
+        })
+        .collect();
+    let widest = boxes.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
     let frames = recordings.iter().flat_map(|recording| &recording.frames);
-    let places: Vec<&Vec3> = frames
+    let places: Vec<Vec3> = frames
         .step_by(8)
-        .flatten()
-        .map(|(place, _)| place)
+        .flat_map(|frame| frame.iter().zip(&scene.pieces))
+        .map(|((place, turn), piece)| place + turn * boxes[piece.kind].0)
         .collect();
     let sorted = [0, 1, 2].map(|axis| {
         let mut values: Vec<f64> = places.iter().map(|place| place[axis]).collect();

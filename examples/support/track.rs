@@ -48,16 +48,18 @@ pub fn csv<'a>(
     text
 }
 
-/// A table of numbers with named columns.
+/// A table with named columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    names: Vec<String>,
-    columns: Vec<Vec<f64>>,
+    /// Names, and the units in those that columns are read in.
+    columns: Vec<(String, f64)>,
+    /// Numbers of the lines, and their values.
+    rows: Vec<(usize, Vec<String>)>,
 }
 
 impl Table {
     /// Reads a table whose values are parted by commas, semicolons, tabs or blanks; what follows a `#` is a comment. The first row
-    /// names the columns; without names, eight columns are those of the TUM format. An empty value is none.
+    /// names the columns; without names, eight columns are those of the TUM format.
     ///
     /// # Errors
     /// The row and what is wrong with it.
@@ -71,50 +73,48 @@ impl Table {
         let Some((_, first)) = rows.peek() else {
             return Err("there is no row".into());
         };
-        let (names, units): (Vec<String>, Vec<f64>) = if first[0].parse::<f64>().is_ok() {
+        let columns: Vec<(String, f64)> = if first[0].parse::<f64>().is_ok() {
             if first.len() != TUM.len() {
                 return Err("there is no row that names the columns".into());
             }
-            TUM.iter().map(|name| ((*name).to_owned(), 1.0)).unzip()
+            TUM.iter().map(|name| ((*name).to_owned(), 1.0)).collect()
         } else {
             let (_, first) = rows.next().expect("it was peeked at");
-            first.iter().map(|name| named(name)).unzip()
+            first.iter().map(|name| named(name)).collect()
         };
-        let mut columns = vec![Vec::new(); names.len()];
-        for (row, values) in rows {
-            if values.len() != names.len() {
-                let (own, all) = (values.len(), names.len());
+        let rows = rows.map(|(row, values)| {
+            if values.len() != columns.len() {
+                let (own, all) = (values.len(), columns.len());
                 return Err(format!("row {row} has {own} values for {all} columns"));
             }
-            for ((value, unit), column) in values.iter().zip(&units).zip(&mut columns) {
-                let number = match value.parse::<f64>() {
-                    _ if value.is_empty() => f64::NAN,
-                    Ok(number) if number.is_finite() => number,
-                    _ => return Err(format!("row {row}: '{value}' is no finite number")),
-                };
-                column.push(number * unit);
-            }
-        }
-        Ok(Self { names, columns })
+            Ok((row, values.into_iter().map(str::to_owned).collect()))
+        });
+        Ok(Self {
+            rows: rows.collect::<Result<_, _>>()?,
+            columns,
+        })
     }
 
     /// The columns of these names, in s, m and rad.
     ///
     /// # Errors
-    /// The column that is missing, or the row in which it has no value.
-    pub fn columns<const N: usize>(&self, names: [&str; N]) -> Result<[&[f64]; N], String> {
-        let mut all: [&[f64]; N] = [&[]; N];
+    /// The column that is missing, or the row in which it has no finite number.
+    pub fn columns<const N: usize>(&self, names: [&str; N]) -> Result<[Vec<f64>; N], String> {
+        let mut all = names.map(|_| Vec::new());
         for (name, found) in names.iter().zip(&mut all) {
-            let at = self.names.iter().position(|own| own == name);
+            let at = self.columns.iter().position(|(own, _)| own == name);
             let at = at.ok_or_else(|| {
-                format!("there is no column '{name}', but {}", self.names.join(", "))
+                let names: Vec<&str> = self.columns.iter().map(|(name, _)| &name[..]).collect();
+                format!("there is no column '{name}', but {}", names.join(", "))
             })?;
-            *found = &self.columns[at];
-            if let Some(row) = found.iter().position(|value| value.is_nan()) {
-                return Err(format!(
-                    "'{name}' has no value in row {} of the numbers",
-                    row + 1
-                ));
+            for (row, values) in &self.rows {
+                match values[at].parse::<f64>() {
+                    Ok(number) if number.is_finite() => found.push(number * self.columns[at].1),
+                    _ => {
+                        let value = &values[at];
+                        return Err(format!("row {row}: {name} is '{value}', no finite number"));
+                    }
+                }
             }
         }
         Ok(all)
@@ -196,7 +196,7 @@ impl Track {
     pub fn read(text: &str) -> Result<Self, String> {
         let table = Table::read(text)?;
         let [t, x, y, z, qx, qy, qz, qw] = table.columns(TUM)?;
-        ascending(t)?;
+        ascending(&t)?;
         let turns = (0..t.len()).map(|i| {
             let turn = Quaternion::new(qw[i], qx[i], qy[i], qz[i]);
             let norm = turn.norm();
@@ -205,9 +205,9 @@ impl Track {
                 .ok_or_else(|| format!("the quaternion is zero at {} s", t[i]))
         });
         Ok(Self {
-            times: t.to_vec(),
             places: (0..t.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect(),
             turns: turns.collect::<Result<_, _>>()?,
+            times: t,
         })
     }
 }

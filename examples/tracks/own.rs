@@ -123,6 +123,7 @@ pub fn compare(text: &str, arguments: &Arguments) -> Result<(), Failure> {
         scene: &scene,
         runs: &[("track", &runs[0]), ("ours", &runs[1])],
         camera: None,
+        follow: true,
     };
     let files = film.write(&arguments.out, &own.film);
     if arguments.json.on {

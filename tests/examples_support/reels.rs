@@ -52,9 +52,9 @@ fn bodies_and_lines_are_where_they_are() {
     let scene = reel.scene();
     // The plate, the ball and the rope; what is fixed, the widest first.
     assert_eq!((scene.pieces.len(), scene.obstacles.len()), (3, 2));
-    let [low, high] = crate::support::reel::corners(&scene.obstacles[0].look.solid);
+    let [low, high] = crate::support::scene::corners(&scene.obstacles[0].look.solid);
     assert!((high - low).x > 3.9, "the floor is the first");
-    let [low, high] = crate::support::reel::corners(&scene.look(0).solid);
+    let [low, high] = crate::support::scene::corners(&scene.look(0).solid);
     assert!(
         (high.x - low.x - 0.2).abs() < 1e-6,
         "both colliders are seen"
@@ -113,6 +113,7 @@ fn a_film_is_a_page_a_glb_and_a_gif_if_asked_for() {
             scene,
             runs: &runs,
             camera: None,
+            follow: false,
         };
         let files = film.write(&out, &FilmArgs { gif, open: false });
         let names = ["seen.html", "seen.glb", "seen.gif"].map(|name| out.path(name));

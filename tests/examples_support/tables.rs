@@ -47,8 +47,8 @@ fn bad_tables_say_where() {
     assert!(wrong("").contains("no row"));
     assert!(wrong("0,0,0\n").contains("names"));
     assert!(wrong(&format!("{header}\n0,0,0,0,0,0,0\n")).contains("row 2 has 7 values for 8"));
-    assert!(wrong(&format!("{header}\n0,0,a,0,0,0,0,1\n")).contains("row 2: 'a'"));
-    assert!(wrong(&format!("{header}\n0,0,inf,0,0,0,0,1\n")).contains("row 2: 'inf'"));
+    assert!(wrong(&format!("{header}\n0,0,a,0,0,0,0,1\n")).contains("row 2: y is 'a'"));
+    assert!(wrong(&format!("{header}\n0,0,inf,0,0,0,0,1\n")).contains("row 2: y is 'inf'"));
     let back = format!("{header}\n0,0,0,0,0,0,0,1\n0,0,0,0,0,0,0,1\n");
     assert!(wrong(&back).contains("do not ascend at 0 s"));
     let zero = format!("{header}\n0,0,0,0,0,0,0,0\n");
@@ -74,6 +74,9 @@ fn a_series_carries_its_units() {
     let csv = series.csv();
     assert_eq!(csv.lines().next(), Some("t_s,height_mm,asleep,run"));
     assert!(csv.lines().nth(1).unwrap().ends_with(",first; plain"));
+    let mut single = Series::new("run", &[("t", "s"), ("x", "m")]);
+    single.push("one", &[f64::from(0.1_f32), 0.1]);
+    assert_eq!(single.csv().lines().nth(1), Some("0.1,0.1,one"));
     let json = series.json();
     assert_eq!(json[1]["height_mm"], 0.012_345);
     assert_eq!(json[2]["run"], "second");

@@ -79,7 +79,8 @@ function describePicked(time) {
     const height = place(run, time, picked)[1] - ground;
     text += `<br>${run.name}: ${height.toFixed(2)} m high, ${Math.hypot(...velocity).toFixed(2)} m/s<table>`;
     for (const [name, force] of run.forces ? forces(run, time, picked) : []) {
-      text += `<tr><td style="color:${forceColors[name]}">➔ ${name}<td>${(1e3 * Math.hypot(...force)).toPrecision(3)} mN`;
+      const newton = Math.hypot(...force), told = newton < 1 ? `${(1e3 * newton).toPrecision(3)} mN` : `${+newton.toPrecision(3)} N`;
+      text += `<tr><td style="color:${forceColors[name]}">➔ ${name}<td>${told}`;
     }
     text += "</table>";
   }

@@ -128,7 +128,9 @@ function moveTo(run, time) {
   for (const group of falling) {
     group.members.forEach((body, k) => {
       pose(run, time, body, group.data, WORDS * k);
-      group.data.set(body === picked ? [1, 0.05, 0.4] : header.bodies[body].color, WORDS * k + 7);
+      // One alone needs no mark.
+      const marked = body === picked && bodyCount > 1;
+      group.data.set(marked ? [1, 0.05, 0.4] : header.bodies[body].color, WORDS * k + 7);
     });
     gl.bindBuffer(gl.ARRAY_BUFFER, group.own);
     gl.bufferSubData(gl.ARRAY_BUFFER, 0, group.data);
