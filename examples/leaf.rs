@@ -91,7 +91,9 @@ fn main() -> Result<(), Error> {
         ("tilt", "deg"),
     ];
     let mut series = Series::new("run", &columns);
-    let mut film = Reel::new(&Leaf::new(true)?.world, options.frame_rate.hertz);
+    // Where the leaf comes in this time; nothing collides with that floor.
+    let film = Reel::new(&Leaf::new(true)?.world, options.frame_rate.hertz);
+    let mut film = film.with_floor(-1.6, [4.0, 4.0]);
     let mut ends = Vec::new();
     for (name, immersed) in [("in air", true), ("plain rapier", false)] {
         let mut leaf = Leaf::new(immersed)?;
@@ -100,7 +102,7 @@ fn main() -> Result<(), Error> {
             if step > 0 {
                 leaf.immersion.step(&mut leaf.world);
             }
-            film.keep(&leaf.world, Some(&leaf.immersion));
+            film.keep(&leaf.world, immersed.then_some(&leaf.immersion));
             if step % (STEPS_PER_SECOND / 10) == 0 {
                 let time = step as Real / STEPS_PER_SECOND as Real;
                 let [fallen, drifted] = leaf.fallen_and_drifted();
@@ -109,7 +111,6 @@ fn main() -> Result<(), Error> {
         }
         ends.push(leaf.fallen_and_drifted());
     }
-    // Plain rapier's is soon out of the picture, which is of the first meter and a half.
     let camera = Camera {
         eye: Vec3::new(0.8, -0.3, 2.6),
         target: Vec3::new(0.0, -0.75, 0.0),

@@ -20,11 +20,9 @@ use rapier3d_immersed::rapier3d::prelude::*;
 use rapier3d_immersed::{Fluid, HydroProperties, ImmersedBody, Immersion, Medium, ViscousLaw};
 use std::error::Error;
 use std::f32::consts::TAU;
-use support::Vec3;
 use support::film::{FilmArgs, FrameRate};
 use support::options::{Out, wrote};
 use support::reel::Reel;
-use support::sheet::Camera;
 
 /// Stones and discs that skip over water.
 #[derive(Parser)]
@@ -180,19 +178,14 @@ fn film(options: &Options) -> Vec<std::path::PathBuf> {
         };
         let (mut world, mut immersion, _) = thrown(STONE, throw, ViscousLaw::default(), 1000.0);
         let film = film.get_or_insert_with(|| {
-            Reel::new(&world, options.frame_rate.hertz).with_water([60.0, 8.0])
+            Reel::new(&world, options.frame_rate.hertz).with_water([60.0, 60.0])
         });
         film.take(name, &world);
         film.shoot(&mut world, &mut immersion, 2.0);
     }
-    let camera = Camera {
-        eye: Vec3::new(-1.6, 1.1, 3.2),
-        target: Vec3::new(2.4, 0.0, 0.0),
-        field_of_view: 0.66,
-    };
     let title = ("skipping", "A flat stone of 200 g at 12 m/s");
     let film = film.expect("throws were filmed");
-    film.write(title, Some(camera), &options.out, &options.film)
+    film.write(title, None, &options.out, &options.film)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -167,7 +167,7 @@ fn main() {
         title: "Leaves on a pond",
         scene: &scene,
         runs: &[("pond", &recording)],
-        camera: None,
+        camera: Some(camera),
         follow: false,
     };
     let mut files = film.write(&options.out, &options.film);

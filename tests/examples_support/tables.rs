@@ -21,7 +21,7 @@ fn columns_are_found_by_name_and_turned_into_si() {
     );
     let empty = table.columns(["note"]).unwrap_err();
     assert!(
-        empty.contains("'note'") && empty.contains("row 1"),
+        empty.contains("note is ''") && empty.contains("row 3"),
         "{empty}"
     );
 }

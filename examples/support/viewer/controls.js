@@ -36,8 +36,9 @@ function draw() {
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
   paint.setTransform(sharp, 0, 0, sharp, 0, 0);
   paint.clearRect(0, 0, innerWidth, innerHeight);
+  // Where it stays when it follows no longer.
+  if (follows()) view.target = place(shown()[0], state.time, picked);
   for (const rect of rects()) {
-    if (picked >= 0 && element("follow").checked) view.target = place(rect.run, state.time, picked);
     const camera = cameraOf(rect);
     drawScene(camera, rect, scale, rect.run, state.time);
     paint.save();

@@ -87,9 +87,13 @@ function resetView() {
 }
 resetView();
 
+/** Whether the camera goes with the body that is picked: in each viewport with that of its run. */
+const follows = () => picked >= 0 && element("follow").checked;
+
 /** Where the camera is, its axes, and the matrix to clip coordinates of a viewport, column by column. */
-function cameraOf({ width, height }) {
-  const { target, distance, turn, tilt } = view;
+function cameraOf({ width, height, run }) {
+  const { distance, turn, tilt } = view;
+  const target = follows() ? place(run, state.time, picked) : view.target;
   const back = [Math.cos(tilt) * Math.sin(turn), Math.sin(tilt), Math.cos(tilt) * Math.cos(turn)];
   const eye = add(target, back, distance), ahead = scaled(back, -1);
   const right = unit(cross(ahead, [0, 1, 0])), up = cross(right, ahead);

@@ -215,7 +215,8 @@ function drawOnFloor(camera) {
   gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
   gl.useProgram(solids.made);
   gl.uniform1f(solids.uniforms.strength, 0.3);
-  drawInstances(standing);
+  // Water ends somewhere, at banks: theirs would fall on nothing.
+  if (!header.water) drawInstances(standing);
   drawInstances(falling, Infinity);
   gl.uniform1f(solids.uniforms.strength, 0);
   gl.disable(gl.STENCIL_TEST);
