@@ -27,6 +27,7 @@ pub use spectrum::WaveSpectrum;
 pub use waves::{Wave, Waves};
 
 use rapier3d::na::Vector3;
+use std::sync::Arc;
 
 /// A free surface at one place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -63,6 +64,29 @@ pub trait FreeSurface: Send + Sync {
     }
 }
 
+/// A surface that several owners share.
+impl<S: FreeSurface + ?Sized> FreeSurface for Arc<S> {
+    fn elevation(&self, x: f64, z: f64, time: f64) -> Elevation {
+        (**self).elevation(x, z, time)
+    }
+
+    fn velocity(&self, point: &Vector3<f64>, time: f64) -> Vector3<f64> {
+        (**self).velocity(point, time)
+    }
+
+    fn highest(&self) -> f64 {
+        (**self).highest()
+    }
+
+    fn bend(&self) -> f64 {
+        (**self).bend()
+    }
+
+    fn is_still(&self) -> bool {
+        (**self).is_still()
+    }
+}
+
 /// Level and at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Level;
@@ -78,5 +102,31 @@ impl FreeSurface for Level {
 
     fn is_still(&self) -> bool {
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sea that two media share is the same sea.
+    #[test]
+    fn shared_surfaces_are_themselves() {
+        let sea = Waves::sea(&Sea::default()).unwrap();
+        let shared: Arc<dyn FreeSurface> = Arc::new(sea.clone());
+        let point = Vector3::new(1.3, 0.2, -0.7);
+        assert_eq!(
+            FreeSurface::elevation(&shared, 1.3, -0.7, 2.0),
+            sea.elevation(1.3, -0.7, 2.0)
+        );
+        assert_eq!(
+            FreeSurface::velocity(&shared, &point, 2.0),
+            sea.velocity(&point, 2.0)
+        );
+        assert!(FreeSurface::highest(&shared) > 0.0 && FreeSurface::bend(&shared).is_finite());
+        assert_eq!(FreeSurface::highest(&shared), sea.highest());
+        assert_eq!(FreeSurface::bend(&shared), sea.bend());
+        assert!(!FreeSurface::is_still(&shared));
+        assert!(FreeSurface::is_still(&Arc::new(Level)));
     }
 }
