@@ -4,7 +4,7 @@ use crate::support::*;
 use bevy::prelude::*;
 use bevy_rapier3d::prelude::*;
 use bevy_rapier3d::rapier::prelude as rapier;
-use bevy_rapier3d_immersed::immersed::{Accuracy, BodyChanges, Part};
+use bevy_rapier3d_immersed::immersed::{BodyChanges, Part};
 use bevy_rapier3d_immersed::prelude::*;
 
 fn immersed(app: &mut App, entity: Entity) -> Mut<'_, Immersed> {
@@ -223,5 +223,4 @@ fn descriptions_may_be_given() {
     update(&mut app, 1);
     let known = immersion(&app, leaf).get(handle(&app, leaf)).unwrap();
     assert_eq!((known.parts.len(), known.law), (4, ViscousLaw::Inviscid));
-    let _ = Accuracy::default();
 }

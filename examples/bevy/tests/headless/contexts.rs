@@ -155,23 +155,21 @@ fn bodies_float_on_layers() {
     lake.layers[1].current = Vec3::X * 0.5;
     lake.level = Vec3::Y * 0.3;
     app.insert_resource(lake);
-    let log = (
+    let raft = (
         RigidBody::Dynamic,
-        Collider::cuboid(0.3, 0.1, 0.1),
+        Collider::cuboid(0.3, 0.1, 0.3),
         Transform::from_xyz(0.0, 0.5, 0.0),
         ColliderMassProperties::Density(600.0),
         Immersed::default(),
     );
-    let log = spawn(&mut app, log);
-    update(&mut app, 600);
-    let body = body(&app, log);
+    let raft = spawn(&mut app, raft);
+    update(&mut app, 1200);
+    let body = body(&app, raft);
     let draft = 0.3 + 0.1 - body.translation().y;
     assert!((draft - 0.2 * 600.0 / 997.0).abs() < 3e-3, "{draft} m");
-    assert!(
-        (body.linvel().x - 0.5).abs() < 0.05,
-        "{} m/s",
-        body.linvel().x
-    );
+    // Water alone would take it along altogether; what is out of it stands in the air.
+    let speed = body.linvel().x;
+    assert!((0.35..0.5).contains(&speed), "{speed} m/s");
 }
 
 /// Waves go on although nobody is in them, so that who comes later meets them where they are.

@@ -104,7 +104,15 @@ pub struct Own {
 
 impl Own {
     pub fn new(place: Transform, fluid: Fluid) -> Self {
+        Self::over(None, place, fluid)
+    }
+
+    /// Over a ground.
+    pub fn over(ground: Option<rapier::ColliderBuilder>, place: Transform, fluid: Fluid) -> Self {
         let mut world = rapier::PhysicsWorld::new();
+        if let Some(ground) = ground {
+            world.insert_collider(ground, None);
+        }
         // As bevy_rapier reads it, by way of an affine map.
         let place = GlobalTransform::from(place).compute_transform();
         let pose = rapier::Pose::from_parts(place.translation, place.rotation);
