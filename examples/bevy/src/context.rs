@@ -18,12 +18,11 @@ use rapier3d_immersed::{Fluid, Immersion};
 /// use bevy::prelude::*;
 /// use bevy_rapier3d_immersed::prelude::*;
 ///
-/// fn switch(keys: Res<ButtonInput<KeyCode>>, mut contexts: Query<&mut RapierContextImmersion>) {
+/// /// Switches the fluid off and on.
+/// fn switch(mut contexts: Query<&mut RapierContextImmersion>) {
 ///     for mut immersion in &mut contexts {
-///         if keys.just_pressed(KeyCode::Space) {
-///             let on = !immersion.is_enabled();
-///             immersion.set_enabled(on);
-///         }
+///         let on = !immersion.is_enabled();
+///         immersion.set_enabled(on);
 ///     }
 /// }
 /// # bevy::ecs::system::assert_is_system(switch);

@@ -11,10 +11,10 @@ mod support;
 use bevy::prelude::*;
 use bevy_rapier3d::prelude::*;
 use bevy_rapier3d::rapier::prelude::SharedShape;
-use bevy_rapier3d_immersed::immersed::Part;
 use bevy_rapier3d_immersed::immersed::rapier3d::na::{
     Isometry3, Translation3, UnitQuaternion, Vector3,
 };
+use bevy_rapier3d_immersed::immersed::{Error, Part};
 use bevy_rapier3d_immersed::prelude::*;
 use std::f64::consts::TAU;
 
@@ -46,7 +46,7 @@ fn transform(place: &Isometry3<f64>) -> Transform {
 
 /// # Errors
 /// Those of the description, which these sizes do not give.
-fn scene(app: &mut App, pitch: f64) -> Result<Entity, rapier3d_immersed::Error> {
+fn scene(app: &mut App, pitch: f64) -> Result<Entity, Error> {
     let [thickness, length, chord] = BLADE;
     let blade = SharedShape::cuboid(thickness, length, chord);
     let mut parts = Vec::new();
@@ -58,6 +58,7 @@ fn scene(app: &mut App, pitch: f64) -> Result<Entity, rapier3d_immersed::Error> 
     let body = ImmersedBody::new(hydro).with_parts(parts);
     app.insert_resource(Wind::uniform(Vec3::X * 6.0));
     let world = app.world_mut();
+    world.spawn(support::floor(0.0));
     let hub = Transform::from_xyz(0.0, HEIGHT, 0.0);
     let tower = world.spawn((RigidBody::Fixed, hub)).id();
     let axle = RevoluteJointBuilder::new(Vec3::X);
@@ -84,8 +85,6 @@ fn scene(app: &mut App, pitch: f64) -> Result<Entity, rapier3d_immersed::Error> 
     Ok(rotor)
 }
 
-use bevy_rapier3d_immersed::immersed as rapier3d_immersed;
-
 /// Angular velocity about the wind, rad/s, after so many seconds of a wind, m/s.
 #[cfg(not(feature = "window"))]
 fn turns(app: &mut App, rotor: Entity, wind: f32, seconds: f32) -> f32 {
@@ -97,7 +96,7 @@ fn turns(app: &mut App, rotor: Entity, wind: f32, seconds: f32) -> f32 {
 }
 
 #[cfg(not(feature = "window"))]
-fn main() -> Result<(), rapier3d_immersed::Error> {
+fn main() -> Result<(), Error> {
     let mut app = support::headless(HZ);
     let rotor = scene(&mut app, 20f64.to_radians())?;
     for wind in [2.0, 4.0, 6.0, 8.0] {
@@ -108,7 +107,7 @@ fn main() -> Result<(), rapier3d_immersed::Error> {
 }
 
 #[cfg(feature = "window")]
-fn main() -> Result<(), rapier3d_immersed::Error> {
+fn main() -> Result<(), Error> {
     let (eye, target) = (Vec3::new(-0.8, 0.9, 1.2), Vec3::Y * HEIGHT);
     let mut built = Ok(());
     support::open(HZ, eye, target, |app| {
