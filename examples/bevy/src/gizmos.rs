@@ -109,3 +109,66 @@ impl<C: GizmoConfigGroup> DebugRenderBackend for Lines<'_, C> {
         self.0.line(from, to, color);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::*;
+    use bevy::gizmos::AppGizmoBuilder;
+    use bevy::gizmos::config::DefaultGizmoConfigGroup;
+    use bevy_rapier3d::prelude::*;
+
+    /// A cube that sinks: an arrow of its weight as long as the cube is, and nothing of what is switched off.
+    #[test]
+    fn forces_are_lines() {
+        let mut app = App::new();
+        app.add_plugins((MinimalPlugins, TransformPlugin))
+            .add_plugins(RapierPhysicsPlugin::<NoUserData>::default())
+            .add_plugins(ImmersedPlugin::<NoUserData>::default())
+            .add_plugins(ImmersedDebugRenderPlugin::default())
+            .init_gizmo_group::<DefaultGizmoConfigGroup>()
+            .insert_resource(Medium::from(Fluid::WATER))
+            .insert_resource(TimestepMode::Fixed {
+                dt: 1.0 / 60.0,
+                substeps: 1,
+            });
+        app.world_mut().spawn((
+            RigidBody::Dynamic,
+            Collider::cuboid(0.1, 0.1, 0.1),
+            ColliderMassProperties::Density(2000.0),
+            Transform::default(),
+            Immersed::default(),
+        ));
+        // The system itself runs, too.
+        (0..30).for_each(|_| app.update());
+        let mut contexts = app
+            .world_mut()
+            .query::<(&RapierContextImmersion, &RapierRigidBodySet)>();
+        let (immersion, set) = contexts.single(app.world()).unwrap();
+        let drawn = |shown: ImmersedDebugRender| {
+            let mut buffer = GizmoBuffer::<DefaultGizmoConfigGroup, ()>::default();
+            DebugRender::from(&shown).render(&mut Lines(&mut buffer), &set.bodies, immersion);
+            buffer
+        };
+        let all = drawn(default());
+        let [hue, saturation, lightness, alpha] = DebugRender::FORCES
+            .iter()
+            .find(|(name, _)| *name == "weight")
+            .unwrap()
+            .1;
+        let weight = LinearRgba::from(Color::hsla(hue, saturation, lightness, alpha));
+        let at = all.list_colors.iter().position(|color| *color == weight);
+        let [from, to] = [0, 1].map(|end| all.list_positions[at.unwrap() + end]);
+        assert!(
+            (to - from - Vec3::NEG_Y * 0.2).length() < 1e-3,
+            "{from} to {to}"
+        );
+        let nothing = drawn(ImmersedDebugRender {
+            forces: false,
+            planforms: false,
+            flow: false,
+            ..default()
+        });
+        assert!(nothing.list_positions.is_empty() && all.list_positions.len() > 20);
+    }
+}
