@@ -94,7 +94,6 @@ pub(crate) fn admit(
         let before = immersed
             .is_changed()
             .then(|| std::mem::replace(&mut known.told, Immersed::clone(&immersed)));
-        let before = before.filter(|before| *before != known.told);
         let described = before
             .as_ref()
             .is_some_and(|before| before.description != known.told.description);

@@ -64,7 +64,7 @@ fn only_changes_are_told() {
 }
 
 /// A cross of two plates: one part to the fluid, or two, as the component says.
-fn cross(app: &mut App, immersed: Immersed) -> (Entity, Entity) {
+fn cross(app: &mut App, immersed: Immersed) -> (Entity, [Entity; 2]) {
     let body = (
         RigidBody::Dynamic,
         Transform::from_xyz(0.0, 2.0, 0.0),
@@ -84,9 +84,8 @@ fn cross(app: &mut App, immersed: Immersed) -> (Entity, Entity) {
             ),
         )
     };
-    plate(app, [0.1, 0.001, 0.1]);
-    let fin = plate(app, [0.1, 0.1, 0.001]);
-    (body, fin)
+    let plates = [[0.1, 0.001, 0.1], [0.1, 0.1, 0.001]].map(|half| plate(app, half));
+    (body, plates)
 }
 
 fn parts(app: &App, entity: Entity) -> usize {
@@ -121,7 +120,7 @@ fn child_colliders_may_come_and_go() {
     ] {
         let mut app = app(FIXED);
         let divided = description != Description::Whole;
-        let (cross, fin) = cross(
+        let (cross, plates) = cross(
             &mut app,
             Immersed {
                 description,
@@ -149,7 +148,8 @@ fn child_colliders_may_come_and_go() {
         assert!((now - 3.0).abs() < 0.02, "{now}");
         assert_eq!(count, if divided { 3 } else { 0 });
         app.world_mut().despawn(third);
-        app.world_mut().despawn(fin);
+        // The first one, which has all the mass while the body is in the fluid.
+        app.world_mut().despawn(plates[0]);
         update(&mut app, 2);
         let (now, count) = volume(&app);
         assert!((now - 1.0).abs() < 0.01, "{now}");
@@ -164,7 +164,7 @@ fn child_colliders_may_come_and_go() {
 #[test]
 fn what_shall_stay_stays() {
     let mut app = app(FIXED);
-    let (cross, fin) = cross(
+    let (cross, plates) = cross(
         &mut app,
         Immersed {
             description: Description::EachCollider,
@@ -176,7 +176,7 @@ fn what_shall_stay_stays() {
     let mut entity = app.world_mut().entity_mut(context);
     let mut immersion = entity.get_mut::<RapierContextImmersion>().unwrap();
     immersion.body_changes = BodyChanges::Ignore;
-    app.world_mut().despawn(fin);
+    app.world_mut().despawn(plates[1]);
     update(&mut app, 5);
     assert_eq!(parts(&app, cross), 2);
 }
@@ -223,4 +223,38 @@ fn descriptions_may_be_given() {
     update(&mut app, 1);
     let known = immersion(&app, leaf).get(handle(&app, leaf)).unwrap();
     assert_eq!((known.parts.len(), known.law), (4, ViscousLaw::Inviscid));
+    // From the beginning, too.
+    let component = Immersed {
+        law: ViscousLaw::Inviscid,
+        ..component
+    };
+    let other = spawn(&mut app, (super::support::leaf(place()), component));
+    update(&mut app, 2);
+    let known = immersion(&app, other).get(handle(&app, other)).unwrap();
+    assert_eq!((known.parts.len(), known.law), (4, ViscousLaw::Inviscid));
+}
+
+/// A collider that becomes a sensor displaces nothing any more, and again when it is solid.
+#[test]
+fn sensors_displace_nothing() {
+    for description in [Description::Colliders, Description::Whole] {
+        let mut app = app(FIXED);
+        let immersed = Immersed {
+            description,
+            ..default()
+        };
+        let (cross, plates) = cross(&mut app, immersed);
+        let volume = |app: &App| {
+            let known = immersion(app, cross).get(handle(app, cross)).unwrap();
+            known.hydro.volume / (8.0 * 0.1 * 0.001 * 0.1)
+        };
+        update(&mut app, 5);
+        let whole = volume(&app);
+        app.world_mut().entity_mut(plates[1]).insert(Sensor);
+        update(&mut app, 3);
+        assert!((volume(&app) - 1.0).abs() < 0.01, "{}", volume(&app));
+        app.world_mut().entity_mut(plates[1]).remove::<Sensor>();
+        update(&mut app, 3);
+        assert!(whole > 1.9 && (volume(&app) - whole).abs() < 1e-6);
+    }
 }

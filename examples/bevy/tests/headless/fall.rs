@@ -1,9 +1,12 @@
 //! A leaf falls as it does without bevy, and what is asked about it is right.
 
 use crate::support::*;
+use bevy::ecs::system::RunSystemOnce;
 use bevy::prelude::*;
 use bevy_rapier3d::prelude::*;
 use bevy_rapier3d::rapier::prelude as rapier;
+use bevy_rapier3d_immersed::immersed::flow::{Layers, Shear, Uniform};
+use bevy_rapier3d_immersed::immersed::turbulence::{self, TurbulenceState, TurbulentLayer};
 use bevy_rapier3d_immersed::prelude::*;
 
 /// Three seconds, through the air and onto a floor, to the bit.
@@ -27,6 +30,45 @@ fn bevy_changes_nothing() {
     assert!(touched, "it never came down");
     let shown = app.world().get::<Transform>(leaf).unwrap().translation;
     assert!((shown - own.body().translation()).length() < 1e-6);
+}
+
+/// In wind and turbulence, too, whose noise is of the seed.
+#[test]
+fn wind_and_turbulence_are_the_immersions() {
+    let turbulence = Turbulence {
+        kinetic_energy: 0.2,
+        dissipation: 0.3,
+        seed: 5,
+        ..default()
+    };
+    let shear = Shear {
+        across: Vec3::Y,
+        rate: Vec3::Z,
+        ..default()
+    };
+    let mut app = app(FIXED);
+    let mut wind = Wind::field(shear);
+    wind.velocity = Vec3::X;
+    app.insert_resource(turbulence).insert_resource(wind);
+    let leaf = spawn(&mut app, (leaf(place()), Immersed::default()));
+    let mut own = Own::new(place(), Fluid::AIR);
+    let breeze = Uniform::new(1.0, 0.0, 0.0);
+    own.immersion
+        .set_flow(Layers::new().with(breeze).with(shear));
+    let state = TurbulenceState {
+        kinetic_energy: 0.2,
+        dissipation: 0.3,
+    };
+    own.immersion.set_turbulence(TurbulentLayer {
+        seed: 5,
+        ..turbulence::Turbulence::Homogeneous(state).into()
+    });
+    for step in 0..90 {
+        app.update();
+        own.step(STEP);
+        assert_eq!(bits(body(&app, leaf)), bits(own.body()), "step {step}");
+    }
+    assert!(own.body().translation().z > 0.2, "no wind");
 }
 
 /// The schedule is found, whichever it is.
@@ -174,5 +216,3 @@ fn hooks_are_bevy_rapiers() {
     assert!(body(&app, through).translation().y < 0.5);
     assert!(body(&app, held).translation().y > 0.9);
 }
-
-use bevy::ecs::system::RunSystemOnce;

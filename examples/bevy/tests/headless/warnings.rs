@@ -58,6 +58,12 @@ fn refusals_are_told_once() {
     );
     let weightless = spawn(&mut app, weightless);
     update(&mut app, 60);
+    // Another shape is tried, and refused for the same reason.
+    for size in 1..5u8 {
+        let ball = Collider::ball(0.1 * f32::from(size));
+        app.world_mut().entity_mut(weightless).insert(ball);
+        update(&mut app, 2);
+    }
     let told = &app.world().resource::<Told>().0;
     let about = |entity| told.iter().filter(|told| told.body == Some(entity)).count();
     assert_eq!([about(bare), about(weightless)], [1, 1], "{told:?}");
