@@ -150,13 +150,12 @@ impl Medium {
 ///
 /// ```
 /// use bevy::prelude::*;
-/// use bevy_rapier3d_immersed::immersed::flow::{Gust, Shear};
+/// use bevy_rapier3d_immersed::immersed::flow::Shear;
 /// use bevy_rapier3d_immersed::prelude::*;
 ///
 /// let mut app = App::new();
 /// app.insert_resource(Wind::uniform(Vec3::X * 2.0)); // m/s
 /// app.insert_resource(Wind::field(Shear { rate: Vec3::X, ..Shear::default() }));
-/// # let _ = Gust::default();
 /// ```
 #[derive(Resource, Reflect, Clone, Debug, Default, PartialEq)]
 #[reflect(Resource, Default, Clone, Debug, PartialEq)]
