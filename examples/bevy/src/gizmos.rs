@@ -114,18 +114,33 @@ impl<C: GizmoConfigGroup> DebugRenderBackend for Lines<'_, C> {
 mod tests {
     use super::*;
     use crate::prelude::*;
-    use bevy::gizmos::AppGizmoBuilder;
+    use bevy::asset::AssetPlugin;
     use bevy::gizmos::config::DefaultGizmoConfigGroup;
+    use bevy::gizmos::{AppGizmoBuilder, GizmoAsset, GizmoHandles};
     use bevy_rapier3d::prelude::*;
+    use std::any::TypeId;
 
-    /// A cube that sinks: an arrow of its weight as long as the cube is, and nothing of what is switched off.
+    /// Ends and colors of the lines that bevy would render.
+    fn lines(app: &App) -> (Vec<Vec3>, Vec<LinearRgba>) {
+        let group = TypeId::of::<DefaultGizmoConfigGroup>();
+        let handle = app.world().resource::<GizmoHandles>().handles().get(&group);
+        let Some(Some(handle)) = handle else {
+            return default();
+        };
+        let assets = app.world().resource::<Assets<GizmoAsset>>();
+        let buffer = assets.get(handle).unwrap().buffer();
+        (buffer.list_positions.clone(), buffer.list_colors.clone())
+    }
+
+    /// A cube that sinks: an arrow of its weight as long as the cube is, and nothing when all is switched off.
     #[test]
     fn forces_are_lines() {
         let mut app = App::new();
-        app.add_plugins((MinimalPlugins, TransformPlugin))
+        app.add_plugins((MinimalPlugins, TransformPlugin, AssetPlugin::default()))
             .add_plugins(RapierPhysicsPlugin::<NoUserData>::default())
             .add_plugins(ImmersedPlugin::<NoUserData>::default())
             .add_plugins(ImmersedDebugRenderPlugin::default())
+            .init_asset::<GizmoAsset>()
             .init_gizmo_group::<DefaultGizmoConfigGroup>()
             .insert_resource(Medium::from(Fluid::WATER))
             .insert_resource(TimestepMode::Fixed {
@@ -139,36 +154,23 @@ mod tests {
             Transform::default(),
             Immersed::default(),
         ));
-        // The system itself runs, too.
         (0..30).for_each(|_| app.update());
-        let mut contexts = app
-            .world_mut()
-            .query::<(&RapierContextImmersion, &RapierRigidBodySet)>();
-        let (immersion, set) = contexts.single(app.world()).unwrap();
-        let drawn = |shown: ImmersedDebugRender| {
-            let mut buffer = GizmoBuffer::<DefaultGizmoConfigGroup, ()>::default();
-            DebugRender::from(&shown).render(&mut Lines(&mut buffer), &set.bodies, immersion);
-            buffer
-        };
-        let all = drawn(default());
-        let [hue, saturation, lightness, alpha] = DebugRender::FORCES
-            .iter()
-            .find(|(name, _)| *name == "weight")
-            .unwrap()
-            .1;
+        let (ends, colors) = lines(&app);
+        assert!(ends.len() > 20, "{} ends", ends.len());
+        let mut forces = DebugRender::FORCES.iter();
+        let weight = forces.find(|(name, _)| *name == "weight").unwrap().1;
+        let [hue, saturation, lightness, alpha] = weight;
         let weight = LinearRgba::from(Color::hsla(hue, saturation, lightness, alpha));
-        let at = all.list_colors.iter().position(|color| *color == weight);
-        let [from, to] = [0, 1].map(|end| all.list_positions[at.unwrap() + end]);
-        assert!(
-            (to - from - Vec3::NEG_Y * 0.2).length() < 1e-3,
-            "{from} to {to}"
-        );
-        let nothing = drawn(ImmersedDebugRender {
-            forces: false,
-            planforms: false,
-            flow: false,
-            ..default()
-        });
-        assert!(nothing.list_positions.is_empty() && all.list_positions.len() > 20);
+        let at = colors.iter().position(|color| *color == weight).unwrap();
+        let arrow = ends[at + 1] - ends[at];
+        assert!((arrow - Vec3::NEG_Y * 0.2).length() < 1e-3, "{arrow}");
+        let mut shown = app.world_mut().resource_mut::<ImmersedDebugRender>();
+        (shown.forces, shown.planforms, shown.flow) = (false, false, false);
+        app.update();
+        assert!(lines(&app).0.is_empty());
+        let mut shown = app.world_mut().resource_mut::<ImmersedDebugRender>();
+        (shown.enabled, shown.forces) = (false, true);
+        app.update();
+        assert!(lines(&app).0.is_empty());
     }
 }
