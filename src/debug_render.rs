@@ -4,6 +4,7 @@ use crate::body::ImmersedBody;
 use crate::coupling::Immersion;
 use crate::dynamics::ForceBreakdown;
 use crate::hydro::HydroProperties;
+use crate::math;
 use crate::math::{isometry, to_real};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier3d::math::{Real, Vector};
@@ -272,7 +273,7 @@ impl<B: DebugRenderBackend> Pen<'_, B> {
         let fill = plate.area / (4.0 * half.x * half.y);
         if fill < 0.5 * (1.0 + TAU / 8.0) {
             let point = |k| {
-                let (sine, cosine) = angle(k).sin_cos();
+                let (sine, cosine) = math::sin_cos(angle(k));
                 at(cosine, sine)
             };
             self.closed((0..SEGMENTS).map(point), PLANFORM);
@@ -289,7 +290,7 @@ impl<B: DebugRenderBackend> Pen<'_, B> {
         let semi = hydro.proxy.semi_axes;
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             let point = |k| {
-                let (sine, cosine) = angle(k).sin_cos();
+                let (sine, cosine) = math::sin_cos(angle(k));
                 let mut on = Vector3::zeros();
                 (on[a], on[b]) = (semi[a] * cosine, semi[b] * sine);
                 to_real((pose * Point3::from(hydro.centroid + axes * on)).coords)

@@ -73,6 +73,10 @@
 //! (boundary elements, flow solver, wind synthesis).
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+// Tests compare with the machine's own functions.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+// On docs.rs, what needs a feature says so.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod body;
 mod coupling;
@@ -111,9 +115,9 @@ pub use hydro::viscous::{
     Bounds, Coefficient, ForceFactors, PhysicalLaw, StochasticLaw, ThesisLaw, ViscousLaw,
 };
 pub use hydro::{
-    Accuracy, AddedMass, BluffShape, CustomLaw, Damping, DragBox, Hull, HydroProperties,
-    OutOfScope, PartLaw, PartMotion, Planform, PolarRow, PolarTable, SeparatedLaw,
-    StokesResistance, Submerged, Waterplane,
+    Accuracy, AddedMass, AddedMassSource, BluffShape, CustomLaw, Damping, DragBox, Hull,
+    HydroProperties, OutOfScope, PartLaw, PartMotion, Planform, PolarRow, PolarTable, SeparatedLaw,
+    Solid, StokesResistance, Submerged, Waterplane,
 };
 pub use medium::{Layer, Medium};
 pub use rapier3d;

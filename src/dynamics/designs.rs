@@ -10,6 +10,7 @@ use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::PreparedLaw;
 use crate::hydro::viscous::terms::Evaluate;
+use crate::math;
 use crate::math::spatial::{Blocks, Twist, Wrench, rotate, rotate_back};
 use rapier3d::na::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use rapier3d::parry::shape::SharedShape;
@@ -234,7 +235,7 @@ fn designs_compared() {
         // Mean order over four halvings.
         let order = |design| {
             let ratio = error(design, 60.0).unwrap() / error(design, 960.0).unwrap();
-            ratio.log2() / 4.0
+            math::log2(ratio) / 4.0
         };
         // The foam plate accelerates a hundred times its own mass: stiff at every one of these steps,
         // where the order does not show yet.

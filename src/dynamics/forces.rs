@@ -4,6 +4,7 @@ use super::constants::BodyConstants;
 use super::parts::PartNow;
 use crate::hydro::viscous::ForceFactors;
 use crate::hydro::viscous::terms::{Evaluate, ViscousTerms};
+use crate::math;
 use crate::math::spatial::{Twist, Wrench, cross};
 use crate::math::to_real;
 use rapier3d::math::{Real, Vector};
@@ -121,7 +122,7 @@ pub(crate) struct Instant {
 pub(super) fn angle_of_attack(velocity: &Vector3<f64>) -> f32 {
     let speed = velocity.norm();
     if speed > 0.0 {
-        (velocity.z.abs() / speed).min(1.0).asin() as f32
+        math::asin((velocity.z.abs() / speed).min(1.0)) as f32
     } else {
         0.0
     }

@@ -19,6 +19,7 @@ use super::reaction::{Frozen, Reaction, implicitness};
 use crate::hydro::part_law::Raise;
 use crate::hydro::part_law::place::{CoupledMass, PartPlace};
 use crate::hydro::viscous::ForceFactors;
+use crate::math;
 use crate::math::Scalar;
 use crate::math::spatial::{Blocks, Twist, Wrench, cross, product, rotate_back, skew, transform};
 use rapier3d::na::Vector3;
@@ -40,7 +41,7 @@ pub(crate) struct PartNow<T> {
 impl PartNow<f64> {
     /// In a fluid at rest, with a deflection, rad.
     pub fn at_rest(deflection: f64) -> Self {
-        let (sine, cosine) = deflection.sin_cos();
+        let (sine, cosine) = math::sin_cos(deflection);
         Self {
             velocity: Vector3::zeros(),
             spin: Vector3::zeros(),

@@ -2,6 +2,7 @@
 
 use super::Flow;
 use crate::error::Error;
+use crate::math;
 use rapier3d::math::{Real, Vector};
 
 /// A flow whose velocity changes linearly across one direction: U = velocity + rate · (x − origin)·across.
@@ -113,7 +114,7 @@ impl Flow for Vortex {
         let fill = if s < 1.0e-3 {
             1.0 - 0.5 * s
         } else {
-            -(-s).exp_m1() / s
+            -math::exp_m1(-s) / s
         };
         self.axis.cross(arm) * (self.circulation / (core::f32::consts::TAU * core2) * fill)
     }
@@ -123,7 +124,7 @@ impl Flow for Vortex {
         let arm = arm - self.axis * arm.dot(self.axis);
         let core2 = self.core_radius * self.core_radius;
         let s = arm.length_squared() / core2;
-        self.axis * (self.circulation / (core::f32::consts::PI * core2) * (-s).exp())
+        self.axis * (self.circulation / (core::f32::consts::PI * core2) * math::exp(-s))
     }
 }
 
@@ -179,13 +180,13 @@ impl Gust {
 impl Flow for Gust {
     fn velocity(&self, point: Vector, time: f64) -> Vector {
         self.phase(point, time).map_or(Vector::ZERO, |phase| {
-            self.velocity * (0.5 * (1.0 - phase.cos()))
+            self.velocity * (0.5 * (1.0 - math::cos(phase)))
         })
     }
 
     fn vorticity(&self, point: Vector, time: f64) -> Vector {
         self.phase(point, time).map_or(Vector::ZERO, |phase| {
-            let growth = phase.sin() * core::f32::consts::PI / self.duration as Real;
+            let growth = math::sin(phase) * core::f32::consts::PI / self.duration as Real;
             -self.slowness.cross(self.velocity) * growth
         })
     }

@@ -2,6 +2,7 @@
 
 use super::{Flow, analytic::unit};
 use crate::error::Error;
+use crate::math;
 use rapier3d::math::{Real, Vector};
 use rapier3d::na::ComplexField;
 
@@ -67,7 +68,7 @@ impl LogLaw {
         Ok(Self {
             direction,
             up,
-            friction_velocity: speed * VON_KARMAN / (height / roughness).ln(),
+            friction_velocity: speed * VON_KARMAN / math::ln(height / roughness),
             roughness,
             ground: 0.0,
         })

@@ -5,6 +5,7 @@ use super::lattice::{Lattice, MAX_NODES, cos_sin, fraction};
 use super::{Flow, FlowSample, LogLaw, alone};
 use crate::error::Error;
 use crate::file::{FileKind, Reader, Writer};
+use crate::math;
 use crate::math::{Lanes, MOST_LANES, OnLanes, Row, Scalar, dispatch};
 use fearless_simd::{Simd, SimdBase};
 use rapier3d::glamx::Vec4;
@@ -117,7 +118,7 @@ impl SpectralWind {
             height_law,
             nodes: lattice.pad(|node| nodes[node]),
             lattice,
-            per_log: 1.0 / (reference_height / roughness).ln(),
+            per_log: 1.0 / math::ln(reference_height / roughness),
             per_roughness: 1.0 / roughness,
             cap: match height_law {
                 HeightLaw::SurfaceLayer => 1.0,

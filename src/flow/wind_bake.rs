@@ -8,6 +8,7 @@ use super::SpectralWind;
 use super::cells::Pair;
 use super::wind_params::{Component, Spectrum, WindParams, check, components};
 use crate::error::Error;
+use crate::math;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
@@ -114,7 +115,7 @@ impl Modes {
                             return [0.0; 3];
                         }
                         let k2: f64 = (0..3).map(|i| (index[i] as f64 * step[i]).powi(2)).sum();
-                        let shape = |c: Component| (c.corner * c.corner + k2).powf(exponent);
+                        let shape = |c: Component| math::powf(c.corner * c.corner + k2, exponent);
                         if equal {
                             let shape = shape(spectra[0]);
                             scale.map(|scale| scale * shape)
@@ -187,7 +188,7 @@ impl Modes {
             }
             for i in 0..3 {
                 if variance[i] > 0.0 {
-                    stretch[i] *= (self.target[i] / variance[i]).powf(0.4);
+                    stretch[i] *= math::powf(self.target[i] / variance[i], 0.4);
                 }
             }
         }

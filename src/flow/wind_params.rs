@@ -2,6 +2,7 @@
 
 use super::{HeightLaw, lattice::Lattice, log_law::VON_KARMAN};
 use crate::error::Error;
+use crate::math;
 use rapier3d::math::{Real, Vector};
 
 /// How strong the gusts are at each wavelength: the one-dimensional power spectrum along the wind,
@@ -178,16 +179,18 @@ pub(super) fn check(params: &WindParams) -> Result<Lattice, Error> {
 pub(super) fn components(params: &WindParams) -> [Component; 3] {
     let height = params.reference_height;
     let friction =
-        params.mean_speed.abs() * f64::from(VON_KARMAN) / (height / params.roughness).ln();
+        params.mean_speed.abs() * f64::from(VON_KARMAN) / math::ln(height / params.roughness);
     core::array::from_fn(|i| match params.spectrum {
         Spectrum::Kaimal => Component {
-            level: KAIMAL_LEVEL[i] * friction.powi(2) * height.powf(-2.0 / 3.0),
-            corner: (KAIMAL_LEVEL[i] * CORNER_INTEGRAL / KAIMAL_DEVIATION[i].powi(2)).powf(1.5)
-                / height,
+            level: KAIMAL_LEVEL[i] * friction.powi(2) * math::powf(height, -2.0 / 3.0),
+            corner: math::powf(
+                KAIMAL_LEVEL[i] * CORNER_INTEGRAL / KAIMAL_DEVIATION[i].powi(2),
+                1.5,
+            ) / height,
         },
         // In S_u = A_u n^(−5/3) with n = Uκ the powers of U cancel.
         Spectrum::Thesis => Component {
-            level: friction * height.powf(-2.0 / 3.0) * [1.0, 0.88, 0.55][i],
+            level: friction * math::powf(height, -2.0 / 3.0) * [1.0, 0.88, 0.55][i],
             corner: 0.0,
         },
         Spectrum::Given { length_scale, .. } => Component {

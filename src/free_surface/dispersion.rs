@@ -1,6 +1,7 @@
 //! How long and how fast linear waves are on water of a depth.
 
 use crate::error::Error;
+use crate::math;
 
 /// Linear gravity waves on water of one depth: ω² = gk tanh kh.
 ///
@@ -62,7 +63,7 @@ impl Dispersion {
 
     /// Angular frequency ω of the wavenumber k, both positive.
     pub(super) fn frequency(&self, wavenumber: f64) -> f64 {
-        (self.gravity * wavenumber * (wavenumber * self.depth).tanh()).sqrt()
+        (self.gravity * wavenumber * math::tanh(wavenumber * self.depth)).sqrt()
     }
 
     /// Wavenumber k of the angular frequency ω, both positive: Newton's method for x = kh.
@@ -74,9 +75,9 @@ impl Dispersion {
             return deep;
         }
         // This start, y/√tanh y (Eckart 1952), is off by 5 % at most, so that a few steps give all digits.
-        let mut x = y / y.tanh().sqrt();
+        let mut x = y / math::tanh(y).sqrt();
         for _ in 0..6 {
-            let tanh = x.tanh();
+            let tanh = math::tanh(x);
             x -= (x * tanh - y) / (tanh + x * (1.0 - tanh * tanh));
         }
         x / self.depth

@@ -3,6 +3,7 @@
 use super::{Elevation, FreeSurface};
 use crate::error::Error;
 use crate::file::{FileKind, Reader, Writer};
+use crate::math;
 use rapier3d::na::Vector3;
 
 /// Where and when the heights of a [`HeightField`] are.
@@ -420,7 +421,7 @@ impl FreeSurface for HeightField {
         }
         let up = rise + level[0] * surface.slope[0] + level[1] * surface.slope[1];
         // What is above the surface moves like the surface.
-        let decay = ((point.y - surface.height).min(0.0) / self.grid.decay).exp();
+        let decay = math::exp((point.y - surface.height).min(0.0) / self.grid.decay);
         Vector3::new(level[0], up, level[1]) * decay
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Dispersion, Wave, WaveSpectrum, Waves};
 use crate::error::Error;
+use crate::math;
 use core::f64::consts::{PI, TAU};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -78,7 +79,7 @@ impl Waves {
         let height = sea.spectrum.significant_height();
         let peak = TAU / sea.spectrum.peak_period();
         let k = sea.dispersion.wavenumber(peak);
-        let most = STEEPEST * TAU / k * (k * sea.dispersion.depth).tanh();
+        let most = STEEPEST * TAU / k * math::tanh(k * sea.dispersion.depth);
         Error::check_range(
             "significant_height of a sea that does not break",
             height,
@@ -102,12 +103,12 @@ impl Waves {
         let spread = Spread::new(sea.spreading);
         let first = uniform();
         let waves = (0..sea.waves).map(|i| {
-            let at = |i: f64| lowest * (highest / lowest).powf(i / sea.waves as f64);
+            let at = |i: f64| lowest * math::powf(highest / lowest, i / sea.waves as f64);
             let energy = sea.spectrum.moment(0, at(i as f64), at(i as f64 + 1.0));
             let frequency = at(i as f64 + uniform());
             // Multiples of the golden section fill the directions evenly, however many follow each other.
             let angle = spread.angle((first + i as f64 * GOLDEN) % 1.0);
-            let ([x, z], (sin, cos)) = (sea.direction, angle.sin_cos());
+            let ([x, z], (sin, cos)) = (sea.direction, math::sin_cos(angle));
             Wave {
                 amplitude: if height > 0.0 {
                     (2.0 * shares * energy).sqrt()
@@ -140,9 +141,9 @@ impl Spread {
         let reach = (8.0 * (2.0 / spreading).sqrt()).min(PI);
         let step = 2.0 * reach / STEPS as f64;
         let density = |i: usize| {
-            let cos = (0.5 * step * (i as f64 + 0.5 - STEPS as f64 / 2.0)).cos();
+            let cos = math::cos(0.5 * step * (i as f64 + 0.5 - STEPS as f64 / 2.0));
             if cos < 1.0 {
-                cos.powf(2.0 * spreading)
+                math::powf(cos, 2.0 * spreading)
             } else {
                 1.0
             }

@@ -1,6 +1,7 @@
 //! How much of a sea's variance waves of each frequency hold.
 
 use crate::error::Error;
+use crate::math;
 use core::f64::consts::TAU;
 
 /// The spectrum of a wind sea, of Pierson and Moskowitz (1964) or of JONSWAP (Hasselmann et al. 1973):
@@ -72,7 +73,7 @@ impl WaveSpectrum {
         Error::check_positive("wind", wind)?;
         Error::check_positive("gravity", gravity)?;
         let height = 2.0 * wind * wind / gravity * (0.0081_f64 / 0.74).sqrt();
-        let peak = (0.8 * 0.74_f64).powf(0.25) * gravity / wind;
+        let peak = math::powf(0.8 * 0.74_f64, 0.25) * gravity / wind;
         Self::pierson_moskowitz(height, TAU / peak)
     }
 
@@ -87,8 +88,8 @@ impl WaveSpectrum {
         Error::check_positive("fetch", fetch)?;
         Error::check_positive("gravity", gravity)?;
         let reduced = (fetch * gravity / (wind * wind)).min(GROWN);
-        let peak = 22.0 * gravity / wind * reduced.powf(-1.0 / 3.0);
-        let alpha = 0.076 * reduced.powf(-0.22);
+        let peak = 22.0 * gravity / wind * math::powf(reduced, -1.0 / 3.0);
+        let alpha = 0.076 * math::powf(reduced, -0.22);
         let variance = alpha * gravity.powi(2) / peak.powi(4) * integral(JONSWAP_PEAKEDNESS);
         Self::jonswap(4.0 * variance.sqrt(), TAU / peak, JONSWAP_PEAKEDNESS)
     }
@@ -109,17 +110,17 @@ impl WaveSpectrum {
         if x <= 0.0 {
             return 0.0;
         }
-        self.level * x.powi(-5) * (-1.25 * x.powi(-4)).exp() * peak(x, self.peakedness)
+        self.level * x.powi(-5) * math::exp(-1.25 * x.powi(-4)) * peak(x, self.peakedness)
     }
 
     /// The moment mₙ = ∫ ωⁿ S dω between two positive frequencies, m²/sⁿ: m₀ is the variance, 2π√(m₀/m₂) the mean period
     /// between zero upcrossings.
     pub fn moment(&self, order: i32, from: f64, to: f64) -> f64 {
-        let span = (to / from).ln();
+        let span = math::ln(to / from);
         let steps = 2 * (span.abs() / 0.004).ceil().max(4.0) as usize;
         let step = span / steps as f64;
         let value = |i: usize| {
-            let frequency = from * (step * i as f64).exp();
+            let frequency = from * math::exp(step * i as f64);
             frequency.powi(order + 1) * self.density(frequency)
         };
         simpson(steps, step, value)
@@ -129,7 +130,7 @@ impl WaveSpectrum {
 /// What raises the peak of a JONSWAP spectrum, at ω/ω_p = `x`.
 fn peak(x: f64, peakedness: f64) -> f64 {
     let width = if x < 1.0 { 0.07 } else { 0.09 };
-    peakedness.powf((-0.5 * ((x - 1.0) / width).powi(2)).exp())
+    math::powf(peakedness, math::exp(-0.5 * ((x - 1.0) / width).powi(2)))
 }
 
 /// ∫₀^∞ x⁻⁵ exp(−1.25 x⁻⁴) γ^r dx = ¼∫₀^∞ exp(−1.25 u) γ^r du with u = x⁻⁴: ⅕ for γ = 1.
@@ -137,7 +138,7 @@ fn integral(peakedness: f64) -> f64 {
     let (steps, step) = (3200, 0.01);
     let value = |i: usize| {
         let u = step * i as f64;
-        (-1.25 * u).exp() * peak(u.powf(-0.25), peakedness)
+        math::exp(-1.25 * u) * peak(math::powf(u, -0.25), peakedness)
     };
     simpson(steps, step, value) / 4.0
 }

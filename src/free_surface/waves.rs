@@ -4,6 +4,7 @@ use super::dispersion::Dispersion;
 use super::fours::{Elevations, Four, Place, Velocities};
 use super::{Elevation, FreeSurface};
 use crate::error::Error;
+use crate::math;
 use crate::math::dispatch;
 use rapier3d::na::Vector3;
 
@@ -95,12 +96,12 @@ impl Waves {
                 "at least 1 mm and finite",
             )?;
             Error::check_finite("phase", wave.phase)?;
-            let length = wave.direction[0].hypot(wave.direction[1]);
+            let length = math::hypot(wave.direction[0], wave.direction[1]);
             let requirement = "a direction: finite, and longer than zero";
             let points = length > 0.0 && length.is_finite();
             Error::check("length of a wave's direction", length, points, requirement)?;
             let k = core::f64::consts::TAU / wave.wavelength;
-            let most = STEEPEST * (k * dispersion.depth).tanh() / k;
+            let most = STEEPEST * math::tanh(k * dispersion.depth) / k;
             Error::check_range(
                 "amplitude of a wave that does not break",
                 wave.amplitude,
@@ -150,7 +151,7 @@ impl Four {
         use core::f64::consts::TAU;
         let k = TAU / wave.wavelength;
         let omega = dispersion.frequency(k);
-        let length = wave.direction[0].hypot(wave.direction[1]);
+        let length = math::hypot(wave.direction[0], wave.direction[1]);
         let [x, z] = wave.direction.map(|d| d / length);
         let a = wave.amplitude;
         let rows = [
@@ -169,7 +170,7 @@ impl Four {
             row[lane] = number * a * omega;
         }
         self.wavenumber[lane] = k;
-        self.bottom[lane] = (-2.0 * k * dispersion.depth).exp();
+        self.bottom[lane] = math::exp(-2.0 * k * dispersion.depth);
     }
 }
 

@@ -3,6 +3,7 @@
 //! At a convex edge the potential goes like distance to the power ½ (a sheet) to 1 (no edge). Points
 //! at the square of an even spacing resolve the worst of them at the order of a smooth function.
 
+use crate::math;
 use rapier3d::na::Vector3;
 use std::f64::consts::TAU;
 
@@ -36,9 +37,9 @@ pub(crate) fn disc(rings: usize) -> (Vec<Vector3<f64>>, Vec<[u32; 3]>) {
         }
     };
     for ring in 1..=rings {
-        let radius = (TAU / 4.0 * ring as f64 / rings as f64).sin();
+        let radius = math::sin(TAU / 4.0 * ring as f64 / rings as f64);
         vertices.extend((0..6 * ring).map(|i| {
-            let (sin, cos) = (TAU * i as f64 / (6 * ring) as f64).sin_cos();
+            let (sin, cos) = math::sin_cos(TAU * i as f64 / (6 * ring) as f64);
             Vector3::new(radius * cos, radius * sin, 0.0)
         }));
         let inner = |i: usize| {

@@ -7,6 +7,7 @@ use super::rounded::COARSE;
 use super::tessellate::rounded_surface;
 use super::{Ellipsoid, Surface};
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::Vector3;
 use rapier3d::parry::shape::{Shape, TypedShape};
 use std::f64::consts::{PI, TAU};
@@ -69,7 +70,7 @@ impl Surface {
             TypedShape::Capsule(s) => {
                 let (r, h) = (f64::from(s.radius), f64::from(s.half_height()));
                 let quarter: Vec<_> = (0..=cells)
-                    .map(|i| (PI / 2.0 * i as f64 / cells as f64).sin_cos())
+                    .map(|i| math::sin_cos(PI / 2.0 * i as f64 / cells as f64))
                     .collect();
                 let along = (((2.0 * h / r) * cells as f64 / (PI / 2.0)).ceil() as usize)
                     .clamp(1, 4 * cells);
@@ -135,7 +136,7 @@ impl Surface {
         }
         Error::check_positive("cells", cells as f64)?;
         let sphere = icosphere(cells)?;
-        let grow = (4.0 / 3.0 * PI / sphere.volume_integrals().volume).cbrt();
+        let grow = math::cbrt(4.0 / 3.0 * PI / sphere.volume_integrals().volume);
         Ok(sphere.map(|v| v.component_mul(&ellipsoid.semi_axes) * grow))
     }
 }
@@ -220,7 +221,7 @@ fn revolve(profile: &[(f64, f64)], around: usize, volume: f64) -> Result<Surface
     let mut vertices = Vec::with_capacity(profile.len() * around);
     for (distance, height) in profile {
         vertices.extend((0..around).map(|i| {
-            let (sin, cos) = (TAU * i as f64 / around as f64).sin_cos();
+            let (sin, cos) = math::sin_cos(TAU * i as f64 / around as f64);
             Vector3::new(distance * sin, *height, distance * cos)
         }));
     }

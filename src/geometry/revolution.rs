@@ -2,6 +2,7 @@
 
 use super::Surface;
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -33,8 +34,12 @@ pub(super) fn arc(radius: f64, from: f64, to: f64, facets: &Facets) -> Vec<(f64,
             let angle = from + (to - from) * i as f64 / segments as f64;
             // The poles lie exactly on the axis, so that they weld to one vertex.
             let at_pole = i == 0 && from == 0.0 || i == segments && to == PI;
-            let distance = if at_pole { 0.0 } else { radius * angle.sin() };
-            (distance, radius * angle.cos())
+            let distance = if at_pole {
+                0.0
+            } else {
+                radius * math::sin(angle)
+            };
+            (distance, radius * math::cos(angle))
         })
         .collect()
 }
@@ -51,7 +56,7 @@ pub(super) fn revolve(
         let mut vertices = Vec::with_capacity(profile.len() * around);
         for (distance, height) in profile {
             vertices.extend((0..around).map(|i| {
-                let (sin, cos) = (TAU * i as f64 / around as f64).sin_cos();
+                let (sin, cos) = math::sin_cos(TAU * i as f64 / around as f64);
                 Vector3::new(scale * distance * sin, *height, scale * distance * cos)
             }));
         }
@@ -95,8 +100,8 @@ impl RoundBody {
     /// A cone about y, its tip up, grown by `border` on all sides.
     pub(super) fn cone(r: f64, h: f64, border: f64, facets: &Facets) -> Self {
         // The angle of the slope's normal from the axis.
-        let slope = (2.0 * h).atan2(r);
-        let (sin, cos) = slope.sin_cos();
+        let slope = math::atan2(2.0 * h, r);
+        let (sin, cos) = math::sin_cos(slope);
         let mut profile = Self::from_top(h + border, facets);
         profile.arc((0.0, h), border, 0.0, slope);
         profile.line_to((r + border * sin, -h + border * cos));
@@ -130,7 +135,7 @@ impl RoundBody {
     /// ended: π ∫ (c + r sin φ)² r sin φ dφ.
     fn arc(&mut self, (cx, cy): (f64, f64), r: f64, from: f64, to: f64) {
         let integral = |angle: f64| {
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = math::sin_cos(angle);
             -cx * cx * r * cos
                 + cx * r * r * (angle - sin * cos)
                 + r.powi(3) * (cos.powi(3) / 3.0 - cos)

@@ -6,6 +6,7 @@
 
 use super::Surface;
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::Vector3;
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -183,7 +184,7 @@ impl Core {
                     };
                     along.normalize()
                 };
-                edge.angle = across.dot(&edge.direction).atan2(n.dot(&m));
+                edge.angle = math::atan2(across.dot(&edge.direction), n.dot(&m));
                 if edge.angle < -FRAC_PI_2 {
                     edge.angle += TAU;
                 }
@@ -275,7 +276,7 @@ impl Skin {
             let [near, far] = edge.ends.map(|end| {
                 let mut arc = vec![corners[&(edge.faces[0], end)]];
                 for i in 1..count {
-                    let (sin, cos) = (edge.angle * i as f64 / count as f64).sin_cos();
+                    let (sin, cos) = math::sin_cos(edge.angle * i as f64 / count as f64);
                     arc.push(skin.vertex(end, n * cos + sideways * sin));
                 }
                 arc.push(corners[&(edge.faces[1], end)]);
@@ -378,11 +379,11 @@ impl Skin {
 /// The direction at the share `t` of the way from one to another, along the great circle.
 fn toward(from: Vector3<f64>, to: Vector3<f64>, t: f64) -> Vector3<f64> {
     let angle = from.angle(&to);
-    let sin = angle.sin();
+    let sin = math::sin(angle);
     if sin < 1e-9 {
         return from;
     }
-    (from * ((1.0 - t) * angle).sin() + to * (t * angle).sin()) / sin
+    (from * math::sin((1.0 - t) * angle) + to * math::sin(t * angle)) / sin
 }
 
 #[cfg(test)]

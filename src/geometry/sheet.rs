@@ -2,6 +2,7 @@
 
 use super::bisect::quarter;
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::Vector3;
 use std::collections::HashMap;
 
@@ -138,7 +139,7 @@ impl Sheet {
         // The polygon is blown up to the area of the ellipse.
         let sides = (6 * rings) as f64;
         let angle = std::f64::consts::TAU / sides;
-        let grow = (angle / angle.sin()).sqrt();
+        let grow = (angle / math::sin(angle)).sqrt();
         let vertices: Vec<_> = vertices
             .iter()
             .map(|v| Vector3::new(v.x * semi_x * grow, v.y * semi_y * grow, 0.0))
@@ -189,8 +190,8 @@ impl Sheet {
         let fold = |s: f64| {
             let (on_keel, on_wing) = (s.abs().min(keel), (s.abs() - keel).max(0.0));
             (
-                s.signum() * (on_keel * tilt.sin() + on_wing),
-                on_keel * tilt.cos(),
+                s.signum() * (on_keel * math::sin(tilt) + on_wing),
+                on_keel * math::cos(tilt),
             )
         };
         let mut vertices = Vec::new();

@@ -5,6 +5,7 @@ use super::revolution::{Facets, RoundBody, arc, revolve};
 use super::rounded::Core;
 use super::voxels;
 use crate::error::Error;
+use crate::math;
 use crate::math::to_f64;
 use rapier3d::math::{Pose, Real, Vector};
 use rapier3d::parry::shape::{
@@ -166,8 +167,8 @@ fn facets_of_hull(shape: &dyn Shape) -> Facets {
     };
     let share = HULL_ERROR * f64::from(half[1] / border);
     // What is not a number is found when the surface is made.
-    let step = if share < 1.0 - FRAC_PI_4.cos() {
-        2.0 * (1.0 - share).acos()
+    let step = if share < 1.0 - math::cos(FRAC_PI_4) {
+        2.0 * math::acos(1.0 - share)
     } else {
         FRAC_PI_2
     };

@@ -7,6 +7,7 @@
 use super::bluff_side::Side;
 use crate::error::Error;
 use crate::geometry::{Ellipsoid, Relief, Surface};
+use crate::math;
 use rapier3d::na::{Rotation3, Vector2, Vector3};
 
 /// Relative error of a relief's shadow from which on its lines are too few for the body, and the drag coefficient
@@ -167,7 +168,7 @@ impl BluffShape {
             pressure_point: [[Vector3::zeros(); 3]; 2],
             second_moment: Vector3::zeros(),
             third_moment: Vector3::zeros(),
-            friction_moment: shadow * (8.0 / 3.0 * (a * b * c).powf(2.0 / 3.0)),
+            friction_moment: shadow * (8.0 / 3.0 * math::powf(a * b * c, 2.0 / 3.0)),
         }
     }
 

@@ -1,6 +1,7 @@
 //! What one side of a body is like to a fluid that comes from there, and the drag coefficient that follows.
 
 use crate::geometry::Relief;
+use crate::math;
 use rapier3d::na::{Vector2, Vector3};
 
 /// Depth of hollows, over the outline's minor width, beyond which more of it changes nothing: a hemispherical cup
@@ -145,7 +146,7 @@ impl Side {
         let wake = WAKE.0 + WAKE.1 * more / (more + HALF_LONG);
         let long = (self.length / REATTACHED).powi(4);
         let attached = self.edge * long / (long + 1.0);
-        let closing = (lee.pressure / CLOSING.0).min(1.0).powf(CLOSING.1);
+        let closing = math::powf((lee.pressure / CLOSING.0).min(1.0), CLOSING.1);
         self.front() + wake * (1.0 - attached) * closing
     }
 

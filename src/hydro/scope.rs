@@ -1,6 +1,7 @@
 //! What of a shape the default law does not see, as far as the shape itself tells.
 
 use crate::geometry::Surface;
+use crate::math;
 use rapier3d::na::{Matrix6, Rotation3, Vector2, Vector3, Vector6};
 
 /// Share of the convex outline around a shadow below which the gaps in it matter, of a plate and of another body. Paper
@@ -65,7 +66,7 @@ impl std::fmt::Display for OutOfScope {
                 f,
                 "its faces are pitched by {:.0}° about an axis, and one surface feels no torque of that: give its \
                  blades as parts",
-                sine.min(1.0).asin().to_degrees()
+                math::asin(sine.min(1.0)).to_degrees()
             ),
         }
     }
@@ -192,7 +193,7 @@ fn pitch(corners: &[[Vector3<f64>; 3]], axis: usize) -> f64 {
         }
         for middle in [a + b, b + c, c + a].map(|sum| 0.5 * sum) {
             torque += normal[axis] * middle.cross(&normal)[axis] / size;
-            let distance = middle[(axis + 1) % 3].hypot(middle[(axis + 2) % 3]);
+            let distance = math::hypot(middle[(axis + 1) % 3], middle[(axis + 2) % 3]);
             arm += normal[axis].abs() * distance;
         }
     }

@@ -1,11 +1,13 @@
 //! Scalars, lanes, and the border between the f64 of what is computed once and the `Real` of rapier's world.
 
 pub(crate) mod fields;
+mod functions;
 mod lanes;
 mod scalar;
 pub(crate) mod spatial;
 
 pub(crate) use fields::scalar_struct;
+pub(crate) use functions::*;
 pub(crate) use lanes::{Lanes, MOST_LANES, OnLanes, Row, dispatch, row, vector};
 #[cfg(test)]
 pub(crate) use lanes::{NARROW, dispatch_narrow};

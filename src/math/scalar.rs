@@ -7,6 +7,7 @@
 //! of its kind; and nalgebra's zeros and ones, which need no value, are out of reach, so that products
 //! of matrices are written out ([`spatial`](super::spatial)).
 
+use crate::math;
 use rapier3d::na::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use std::fmt::Debug;
 use std::ops::Neg;
@@ -102,11 +103,11 @@ impl Scalar for f64 {
     standard!(f64);
     #[inline(always)]
     fn exp(self) -> Self {
-        self.exp()
+        math::exp(self)
     }
     #[inline(always)]
     fn ln(self) -> Self {
-        self.ln()
+        math::ln(self)
     }
 }
 

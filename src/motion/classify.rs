@@ -12,6 +12,7 @@
 
 use super::pattern::Regime;
 use super::trajectory::{Moment, Trajectory, principal_variances};
+use crate::math;
 use rapier3d::na::{Matrix2, Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -162,7 +163,7 @@ impl Classifier {
         let mut side = first.normal.y.signum();
         // This is the last rotation of the normal through the horizontal, until it is far enough beyond.
         let mut crossing = None;
-        let beyond = self.pass.sin();
+        let beyond = math::sin(self.pass);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut rising = false;
         for pair in moments.windows(2) {
@@ -178,7 +179,7 @@ impl Classifier {
                 continue;
             }
             // The tilt of the face that is up is beyond π/2 until the pass is complete.
-            let tilt = (now.y * side).clamp(-1.0, 1.0).acos();
+            let tilt = math::acos((now.y * side).clamp(-1.0, 1.0));
             if rising {
                 high = high.max(tilt);
                 if tilt < high - self.swing {
@@ -242,7 +243,9 @@ fn count(events: &[Event]) -> (u32, u32) {
 
 /// Mean angle between the normal and the vertical, rad.
 fn mean_tilt(moments: &[Moment]) -> f64 {
-    let tilts = moments.iter().map(|m| m.normal.y.abs().min(1.0).acos());
+    let tilts = moments
+        .iter()
+        .map(|m| math::acos(m.normal.y.abs().min(1.0)));
     tilts.sum::<f64>() / moments.len().max(1) as f64
 }
 
@@ -264,7 +267,7 @@ fn circling(moments: &[Moment]) -> (f64, f64) {
     for step in &steps {
         let v = step - mean;
         variance += v * v.transpose();
-        let heading = v.y.atan2(v.x);
+        let heading = math::atan2(v.y, v.x);
         if let Some(last) = last {
             let turn: f64 = heading - last;
             angle += (turn + PI).rem_euclid(TAU) - PI;

@@ -1,6 +1,7 @@
 //! Which pattern follows which: a Markov chain (thesis § 5.5.2).
 
 use crate::error::Error;
+use crate::math;
 use rand::{Rng, RngExt};
 
 /// A motion graph over any number of states: a start distribution and the probabilities of going from
@@ -104,7 +105,7 @@ impl MotionGraph {
     /// the masses of a Gaussian about the middle of the order with a standard deviation of one pattern
     /// at −1.5, −0.5, 0.5 and 1.5.
     pub fn thesis() -> Self {
-        let gauss = |x: f64| (-0.5 * x * x).exp();
+        let gauss = |x: f64| math::exp(-0.5 * x * x);
         let masses = [-1.5, -0.5, 0.5, 1.5].map(gauss);
         let sum: f64 = masses.iter().sum();
         Self {

@@ -2,6 +2,7 @@
 
 use super::classify::Classifier;
 use super::trajectory::Moment;
+use crate::math;
 use rapier3d::na::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -66,11 +67,11 @@ impl HelixFit {
         if !(radius.is_finite() && radius > 0.0) {
             return None;
         }
-        let distance = |p: Vector3<f64>| (p.x - a).hypot(p.z - b) - radius;
+        let distance = |p: Vector3<f64>| math::hypot(p.x - a, p.z - b) - radius;
         let square = flat().map(|p| distance(p).powi(2)).sum::<f64>() / count as f64;
         let (mut angle, mut last) = (0.0, None);
         for p in flat() {
-            let azimuth = (p.z - b).atan2(p.x - a);
+            let azimuth = math::atan2(p.z - b, p.x - a);
             if let Some(last) = last {
                 let step: f64 = azimuth - last;
                 angle += (step + PI).rem_euclid(TAU) - PI;

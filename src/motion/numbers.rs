@@ -4,6 +4,7 @@ use crate::body::DryMass;
 use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
+use crate::math;
 use rapier3d::na::Matrix3;
 use std::f64::consts::PI;
 
@@ -190,7 +191,7 @@ impl DimensionlessNumbers {
     ///
     /// `C_D = (64/πRe)(1 + 0.138 Re^0.792)` (Pitter, Pruppacher & Hamielec 1973), 1.17 at least.
     pub fn broadside_descent(&self) -> f64 {
-        let drag = |re: f64| (64.0 / (PI * re) * (1.0 + 0.138 * re.powf(0.792))).max(1.17);
+        let drag = |re: f64| (64.0 / (PI * re) * (1.0 + 0.138 * math::powf(re, 0.792))).max(1.17);
         // In ½U²C_D(Re) = U0², C_D U² grows with U, so that bisection of log U finds the only root.
         let (mut low, mut high) = (1e-12 * self.u0, 2.0 * self.u0);
         if self.u0 == 0.0 {

@@ -4,6 +4,7 @@ use super::estimates::FallEstimates;
 use super::numbers::DimensionlessNumbers;
 use super::pattern::Regime;
 use crate::error::Error;
+use crate::math;
 
 /// Re (by mean descent) against I* where steady descent ends: Field, Klaus, Moore & Nori, *Nature*
 /// 388 (1997), as the public data of Howison et al. (2020) hold them, in order of I*.
@@ -255,8 +256,8 @@ fn interpolate(table: &[(f64, f64)], x: f64) -> f64 {
         return table[after - 1].1;
     }
     let ((x0, y0), (x1, y1)) = (table[after - 1], table[after]);
-    let s = (x / x0).ln() / (x1 / x0).ln();
-    y0 * (y1 / y0).powf(s)
+    let s = math::ln(x / x0) / math::ln(x1 / x0);
+    y0 * math::powf(y1 / y0, s)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! A recorded fall, and what it amounts to: the thesis's two numbers of its path, and two of how it turns.
 
+use crate::math;
 use rapier3d::na::{Matrix2, Vector2, Vector3};
 
 /// Where a body is and how it is turned at one moment. World axes, y up.
@@ -139,7 +140,11 @@ impl AttitudeSpread {
     /// Of a part of a fall, recorded at equal intervals in which the normal turns by less than half a turn.
     pub fn of(moments: &[Moment]) -> Self {
         let count = moments.len().max(1) as f64;
-        let tilts = || moments.iter().map(|m| m.normal.y.abs().min(1.0).acos());
+        let tilts = || {
+            moments
+                .iter()
+                .map(|m| math::acos(m.normal.y.abs().min(1.0)))
+        };
         let mean = tilts().sum::<f64>() / count;
         let variance = tilts().map(|tilt| (tilt - mean).powi(2)).sum::<f64>() / count;
         let (mut net, mut whole) = (Vector2::zeros(), 0.0);
@@ -148,7 +153,7 @@ impl AttitudeSpread {
             let across = before.normal.cross(&now.normal);
             let sine = across.norm();
             if sine > 0.0 {
-                let angle = sine.atan2(before.normal.dot(&now.normal));
+                let angle = math::atan2(sine, before.normal.dot(&now.normal));
                 let turn = across * (angle / sine);
                 let third = before.normal.cross(&before.long_axis);
                 net += Vector2::new(turn.dot(&before.long_axis), turn.dot(&third));
@@ -169,7 +174,7 @@ impl AttitudeSpread {
 /// Eigenvalues of a symmetric 2×2 matrix, the larger first.
 pub(crate) fn principal_variances(m: &Matrix2<f64>) -> [f64; 2] {
     let mean = 0.5 * (m[(0, 0)] + m[(1, 1)]);
-    let radius = (0.5 * (m[(0, 0)] - m[(1, 1)])).hypot(m[(0, 1)]);
+    let radius = math::hypot(0.5 * (m[(0, 0)] - m[(1, 1)]), m[(0, 1)]);
     [mean + radius, (mean - radius).max(0.0)]
 }
 
@@ -197,11 +202,11 @@ pub(crate) mod tests {
     fn eccentricity_of_an_ellipse() {
         let (a, b, turn) = (0.3, 0.12, 0.7f64);
         let around = path(0.01, 101, |t| {
-            let (x, z) = (a * (2.0 * PI * t).cos(), b * (2.0 * PI * t).sin());
+            let (x, z) = (a * math::cos(2.0 * PI * t), b * math::sin(2.0 * PI * t));
             Vector3::new(
-                1.0 + turn.cos() * x - turn.sin() * z,
+                1.0 + math::cos(turn) * x - math::sin(turn) * z,
                 -5.0 * t,
-                turn.sin() * x + turn.cos() * z,
+                math::sin(turn) * x + math::cos(turn) * z,
             )
         });
         let open = Trajectory {
@@ -225,7 +230,7 @@ pub(crate) mod tests {
     fn how_a_body_turns() {
         let turning = |angle: &dyn Fn(f64) -> f64, long: bool| {
             let moment = |i: usize| {
-                let (sine, cosine) = angle(i as f64 / 1000.0).sin_cos();
+                let (sine, cosine) = math::sin_cos(angle(i as f64 / 1000.0));
                 let along = Vector3::new(cosine, -sine, 0.0);
                 Moment {
                     position: Vector3::zeros(),
@@ -235,7 +240,7 @@ pub(crate) mod tests {
             };
             AttitudeSpread::of(&(0..4000).map(moment).collect::<Vec<_>>())
         };
-        let swing = turning(&|t| 0.6 * (2.0 * PI * t).sin(), true);
+        let swing = turning(&|t| 0.6 * math::sin(2.0 * PI * t), true);
         let exact = 0.6 * (0.5 - 4.0 / (PI * PI)).sqrt();
         assert!((swing.tilt - exact).abs() < 1e-4, "{swing:?}");
         assert!(swing.coherence < 1e-3, "{swing:?}");

@@ -4,6 +4,7 @@ use crate::body::DryMass;
 use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
+use crate::math;
 use crate::math::Scalar;
 use rapier3d::math::{Real, Vector};
 use std::f64::consts::PI;
@@ -88,7 +89,7 @@ impl Particle {
 
     /// Diameter of the sphere of its volume, m: what its Reynolds number is on.
     pub fn diameter(&self) -> f64 {
-        (6.0 / PI * self.volume).cbrt()
+        math::cbrt(6.0 / PI * self.volume)
     }
 
     /// Reynolds number at a speed (m/s) through the fluid.
@@ -111,7 +112,7 @@ impl Particle {
         let (factor, power) = (f64::from(EXCESS.0), f64::from(EXCESS.1));
         let (target, mut speed) = (creeping.abs(), creeping.abs());
         for _ in 0..64 {
-            let excess = factor * self.reynolds_at(fluid, speed).powf(power);
+            let excess = factor * math::powf(self.reynolds_at(fluid, speed), power);
             let miss = speed * (1.0 + excess) - target;
             speed -= miss / (1.0 + (1.0 + power) * excess);
         }

@@ -1,6 +1,7 @@
 //! One played body: how it is moved along its path, and what contacts do to it.
 
 use super::player::{AtContact, Drive, MotionPlayer};
+use crate::math;
 use crate::motion::path::{MotionPath, WindResponse};
 use rapier3d::dynamics::{RigidBody, RigidBodyHandle, RigidBodyType};
 use rapier3d::geometry::{ActiveCollisionTypes, ColliderSet, NarrowPhase};
@@ -243,7 +244,7 @@ impl PlayerState {
         let away = turned * body.rotation().inverse();
         let angular = (vector(rotation * turned.inverse()) + vector(away) * k) / dt;
         let (linear, angular) = if self.free < 8.0 * compliance {
-            let s = 1.0 - (-self.free / compliance).exp();
+            let s = 1.0 - math::exp(-self.free / compliance);
             (
                 body.linvel() + (linear - body.linvel()) * s,
                 body.angvel() + (angular - body.angvel()) * s,

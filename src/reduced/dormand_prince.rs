@@ -1,5 +1,7 @@
 //! An adaptive explicit integrator, which computes the data of surrogates and finds singularities.
 
+use crate::math;
+
 /// Tolerances of [`integrate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
@@ -127,7 +129,7 @@ pub fn integrate(
             state.copy_from_slice(&trial);
             slopes.swap(0, 6);
         }
-        step = h * (0.9 * error.powf(-0.2)).clamp(0.2, 5.0);
+        step = h * (0.9 * math::powf(error, -0.2)).clamp(0.2, 5.0);
     }
     t
 }

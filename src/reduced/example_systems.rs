@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::kirchhoff::KirchhoffBody;
 use super::quadratic::{Dependence, InitialTerm, QuadraticSystem, RateTerm};
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::Vector3;
 
 fn rate(
@@ -77,7 +78,7 @@ pub fn falling_body(drag: Axis) -> QuadraticSystem {
 /// The solution of [`falling_body`], −u_T tanh(g t / u_T) with the terminal velocity u_T (thesis §6.4.2).
 pub fn falling_body_solution(t: f64, drag: f64) -> f64 {
     let terminal = (2.0 * 0.1 * 9.81 / (1.23 * drag * 0.5_f64)).sqrt();
-    -terminal * (9.81 * t / terminal).tanh()
+    -terminal * math::tanh(9.81 * t / terminal)
 }
 
 /// u̇₁ + u₂u₃ = 1, u̇₂ + u₁u₃ = 2, u̇₃ + u₁u₂ = 3 (thesis (6.22)); the parameters are the three

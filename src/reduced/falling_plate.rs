@@ -1,6 +1,7 @@
 //! A plate that falls in a plane, the test dynamics of surrogates and identification.
 
 use super::dormand_prince::{Tolerances, integrate};
+use crate::math;
 
 /// The thin-plate limit of the quasi-steady model of Andersen, Pesavento & Wang (J. Fluid Mech.
 /// 541, 2005): flutter, tumbling and chaos from six ordinary differential equations.
@@ -65,7 +66,7 @@ impl FallingPlate {
         let drag = (self.drag_mean * speed - self.drag_variation * (u * u - v * v) * inverse) / PI;
         let torque = self.rotational_drag * (1.0 + spin.abs()) * spin;
         let i = self.inertia_ratio;
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = math::sin_cos(angle);
         out[0] = ((i + 1.0) * spin * v - circulation * v - sin - drag * u) / i;
         out[1] = (-i * spin * u + circulation * u - cos - drag * v) / (i + 1.0);
         out[2] = 4.0 * (-u * v - torque) / (i + 0.5);

@@ -1,5 +1,7 @@
 //! Nodes and weights of the Gauss–Legendre, Gauss–Lobatto and Gauss–Radau rules on [−1, 1].
 
+use crate::math;
+
 /// The Legendre polynomials of degree `n` and `n − 1` at `x` (`n ≥ 1`), by their recurrence.
 fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut previous, mut current) = (1.0, x);
@@ -30,7 +32,7 @@ impl Rule {
     pub fn gauss(n: usize) -> Self {
         let count = n as f64;
         Self::from_fn(n, |i| {
-            let guess = -((i as f64 + 0.75) / (count + 0.5) * std::f64::consts::PI).cos();
+            let guess = -math::cos((i as f64 + 0.75) / (count + 0.5) * std::f64::consts::PI);
             let slope = |x: f64| {
                 let (p, q) = legendre(n, x);
                 (p, count * (x * p - q) / (x * x - 1.0))
@@ -51,7 +53,7 @@ impl Rule {
             } else if i == degree {
                 1.0
             } else {
-                let guess = -(i as f64 * std::f64::consts::PI / degree as f64).cos();
+                let guess = -math::cos(i as f64 * std::f64::consts::PI / degree as f64);
                 // The roots of P'ₙ₋₁: (1 − x²)P' = n(Pₙ₋₁ − xPₙ) and ((1 − x²)P')' = −n(n+1)Pₙ.
                 newton(guess, |x| {
                     let (p, q) = legendre(degree, x);
@@ -72,7 +74,8 @@ impl Rule {
             let x = if left == 0 {
                 -1.0
             } else {
-                let guess = -(2.0 * std::f64::consts::PI * left as f64 / (2.0 * count - 1.0)).cos();
+                let guess =
+                    -math::cos(2.0 * std::f64::consts::PI * left as f64 / (2.0 * count - 1.0));
                 newton(guess, |x| {
                     let (p, q) = legendre(n, x);
                     let r = if n == 1 { 0.0 } else { legendre(n - 1, x).1 };

@@ -1,6 +1,7 @@
 //! A function as a weighted combination of its linearizations.
 
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::{DMatrix, DVector};
 
 /// f(x) ≈ Σ wᵢ(x) (f(xᵢ) + Jᵢ (x − xᵢ)), with weights that only depend on which of the points are near (thesis (6.31);
@@ -124,7 +125,7 @@ impl PiecewiseLinear {
         let places = self.places.chunks_exact(self.scales.len());
         for ((piece, place), d2) in self.pieces.iter().zip(places).zip(self.distances(x)) {
             // The nearest has e⁰: the common factor cancels.
-            let weight = (SHARPNESS * (1.0 - d2.sqrt() / least)).exp();
+            let weight = math::exp(SHARPNESS * (1.0 - d2.sqrt() / least));
             if weight < 1e-12 {
                 continue;
             }

@@ -4,6 +4,7 @@ use super::axis::{Axis, Family};
 use super::cross::{CrossParams, CrossReport, cross};
 use super::tensor_train::TensorTrain;
 use crate::error::Error;
+use crate::math;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rapier3d::na::Vector3;
@@ -52,7 +53,7 @@ impl Motions {
     pub fn axes(self, slow: f64, fast: f64) -> Result<Vec<Axis>, Error> {
         Error::check_positive("slowest speed of separated forces", slow)?;
         Error::check_positive("fastest speed over slowest, less 1", fast / slow - 1.0)?;
-        let (slow, fast) = (slow.ln(), fast.ln());
+        let (slow, fast) = (math::ln(slow), math::ln(fast));
         // Lifts set in where Lω is but a fiftieth of u.
         let across = vec![0.0, 0.03, 0.15, 0.6, FRAC_PI_2];
         Ok(match self {
@@ -83,7 +84,7 @@ impl Motions {
 
 /// û, ê_α, ê_φ of a direction.
 fn frame(incidence: f64, azimuth: f64) -> [Vector3<f64>; 3] {
-    let ((sa, ca), (sf, cf)) = (incidence.sin_cos(), azimuth.sin_cos());
+    let ((sa, ca), (sf, cf)) = (math::sin_cos(incidence), math::sin_cos(azimuth));
     [
         Vector3::new(ca * cf, ca * sf, sa),
         Vector3::new(-sa * cf, -sa * sf, ca),
@@ -118,21 +119,28 @@ impl Motion {
         let (u, w) = (u.component_mul(&turn), w.component_mul(&turn) * parity);
         let speed = u.norm();
         let speed2 = speed * speed + w.norm_squared();
-        let log_speed = 0.5 * speed2.max(1e-30).ln();
-        let incidence = u.z.atan2(u.x.hypot(u.y));
+        let log_speed = 0.5 * math::ln(speed2.max(1e-30));
+        let incidence = math::atan2(u.z, math::hypot(u.x, u.y));
         let coordinates = if motions == Motions::InPlane {
-            [incidence, (-w.x).atan2(speed), log_speed, 0.0, 0.0, 0.0]
+            [
+                incidence,
+                math::atan2(-w.x, speed),
+                log_speed,
+                0.0,
+                0.0,
+                0.0,
+            ]
         } else {
-            let azimuth = u.y.atan2(u.x);
+            let azimuth = math::atan2(u.y, u.x);
             let [e, across, aside] = frame(incidence, azimuth);
             let (along, a, b) = (w.dot(&e), w.dot(&across), w.dot(&aside));
-            let turning = a.hypot(b);
+            let turning = math::hypot(a, b);
             [
                 incidence,
                 azimuth,
-                b.atan2(a),
-                along.atan2(speed.hypot(turning)),
-                turning.atan2(speed),
+                math::atan2(b, a),
+                math::atan2(along, math::hypot(speed, turning)),
+                math::atan2(turning, speed),
                 log_speed,
             ]
         };
@@ -152,9 +160,9 @@ fn velocities(motions: Motions, c: &[f64]) -> [Vector3<f64>; 2] {
         Motions::InPlane => [FRAC_PI_2, FRAC_PI_2, 0.0, c[1], c[2]],
     };
     let [e, up, aside] = frame(c[0], azimuth);
-    let v = log_speed.exp();
-    let ((sd, cd), (sg, cg)) = (along.sin_cos(), across.sin_cos());
-    let w = e * sd + (up * direction.cos() + aside * direction.sin()) * (cd * sg);
+    let v = math::exp(log_speed);
+    let ((sd, cd), (sg, cg)) = (math::sin_cos(along), math::sin_cos(across));
+    let w = e * sd + (up * math::cos(direction) + aside * math::sin(direction)) * (cd * sg);
     [e * (v * cd * cg), w * v]
 }
 
@@ -242,7 +250,7 @@ impl SeparatedForces {
             let (motion, parameters) = point.split_at(count);
             let [u, w] = velocities(motions, motion);
             let per = 1.0 / (u.norm_squared() + w.norm_squared());
-            let turn = azimuth(motions, motion).sin_cos();
+            let turn = math::sin_cos(azimuth(motions, motion));
             let [force, torque] = model(&u, &w, parameters).map(|v| turned(&v, turn) * per);
             out[..3].copy_from_slice(force.as_slice());
             out[3..].copy_from_slice(torque.as_slice());
@@ -273,10 +281,10 @@ impl SeparatedForces {
         let mut values = [0.0; 6];
         self.train
             .contract(point, &mut values, &mut [0.0; 2 * MOST_RANK]);
-        let slow = self.train.axes()[count - 1].start().exp();
+        let slow = math::exp(self.train.axes()[count - 1].start());
         let speed = motion.speed2.sqrt();
         let scale = motion.speed2.max(speed * slow);
-        let (sine, cosine) = azimuth(self.motions, point).sin_cos();
+        let (sine, cosine) = math::sin_cos(azimuth(self.motions, point));
         let [f, t] = [[0, 1, 2], [3, 4, 5]].map(|k| {
             let v = Vector3::new(values[k[0]], values[k[1]], values[k[2]]);
             turned(&v, (-sine, cosine)).component_mul(&motion.turn) * scale

@@ -3,6 +3,7 @@
 use super::sweep::Sample;
 #[cfg(feature = "bake")]
 use crate::error::Error;
+use crate::math;
 use crate::motion::Pattern;
 
 /// Which two numbers of a fall are clustered.
@@ -57,7 +58,7 @@ impl Features {
         let swing = tilt / (tilt + STEADY);
         match self {
             Self::Path => [
-                (sample.distance / length + 0.1).log10(),
+                math::log10(sample.distance / length + 0.1),
                 sample.eccentricity,
             ],
             Self::Turning => [swing, sample.attitude.coherence],

@@ -8,6 +8,7 @@ use crate::fluid::Fluid;
 use crate::geometry::{Ellipsoid, Surface};
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::{ThesisLaw, ViscousLaw};
+use crate::math;
 use crate::math::{to_real, to_rotation};
 use crate::motion::{Moment, PlannedFor, Trajectory};
 use rapier3d::geometry::SharedShape;
@@ -69,7 +70,7 @@ impl Release {
             0.0, 0.0, 1.0, //
             0.0, -1.0, 0.0,
         ));
-        let (sine, cosine) = self.tilt_axis.sin_cos();
+        let (sine, cosine) = math::sin_cos(self.tilt_axis);
         let axis = Unit::new_unchecked(Vector3::new(sine, 0.0, -cosine));
         let tilt = Rotation3::from_axis_angle(&axis, self.tilt);
         let heading = Rotation3::from_axis_angle(&Vector3::y_axis(), self.heading);

@@ -22,6 +22,7 @@
 //!   through its mean with a hysteresis of ¼ of its amplitude: swings per second for a flutter, full
 //!   turns per second for tumbling; 0 below 0.01 rad or with less than two passages.
 
+use crate::math;
 use crate::motion::{Moment, Trajectory};
 use rapier3d::na::{Matrix2, Vector2, Vector3};
 use std::f64::consts::PI;
@@ -77,7 +78,7 @@ impl FallStatistics {
         let normals: Vec<Vector3<f64>> = half.iter().map(|m| m.normal).collect();
         Self {
             mean_descent: -moved.y / duration,
-            mean_horizontal: moved.x.hypot(moved.z) / duration,
+            mean_horizontal: math::hypot(moved.x, moved.z) / duration,
             rotation_rate: net_rotation(&normals).abs() / duration,
             flips: flips(&normals),
             tilt_amplitude: tilt_amplitude(&normals),
@@ -93,7 +94,7 @@ fn turn(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
     if sine < 1e-300 {
         return Vector3::zeros();
     }
-    cross * (sine.atan2(from.dot(to)) / sine)
+    cross * (math::atan2(sine, from.dot(to)) / sine)
 }
 
 /// Net angle about the flipping axis, rad; its sign is that of the first passage.
@@ -139,8 +140,8 @@ fn net_rotation(normals: &[Vector3<f64>]) -> f64 {
 fn passage_part(normals: &[Vector3<f64>], i: usize, axis: &Vector3<f64>) -> (f64, f64) {
     let whole = turn(&normals[i], &normals[i + 1]).dot(&axis.normalize());
     let (before, after) = (
-        normals[i].y.abs().min(1.0).asin(),
-        normals[i + 1].y.abs().min(1.0).asin(),
+        math::asin(normals[i].y.abs().min(1.0)),
+        math::asin(normals[i + 1].y.abs().min(1.0)),
     );
     let share = if before + after > 0.0 {
         before / (before + after)
@@ -201,7 +202,7 @@ fn tilt_amplitude(normals: &[Vector3<f64>]) -> f64 {
             let upward = if n.y < 0.0 { -n } else { *n };
             let flat = Vector2::new(upward.x, upward.z);
             let sine = flat.norm();
-            flat * (sine.atan2(upward.y) / sine.max(1e-300))
+            flat * (math::atan2(sine, upward.y) / sine.max(1e-300))
         })
         .collect();
     let mut along = along_principal(&tilts);

@@ -7,6 +7,7 @@ use super::grid::{Advection, Boundary, MacGrid, MacGridParams, Viscosity};
 use super::{KEpsilon, KEpsilonGrid, TurbulenceField, TurbulenceState, TurbulenceTable};
 use crate::error::Error;
 use crate::flow::{Flow, Uniform};
+use crate::math;
 use rapier3d::math::Real;
 use std::sync::Arc;
 
@@ -282,7 +283,7 @@ impl TurbulenceTable {
         }
         let k0 = 1.5 * params.intensity.powi(2);
         let length = params.eddy_cells * params.cell_size;
-        let epsilon0 = params.model.c_mu.powf(0.75) * k0.powf(1.5) / length;
+        let epsilon0 = math::powf(params.model.c_mu, 0.75) * math::powf(k0, 1.5) / length;
         let viscosity = params.diffusion.then(|| params.reynolds.recip());
         let mut field = KEpsilonGrid::new(&grid, params.model, k0, epsilon0, viscosity)?;
         let mut particle = Particle::release(params, &grid, &field);

@@ -1,6 +1,7 @@
 //! The k–ε model where it needs no grid: constants, eddy viscosity, and its source terms in closed form.
 
 use crate::error::Error;
+use crate::math;
 use rapier3d::math::Real;
 
 /// How strong the turbulence is at one place and time.
@@ -39,7 +40,7 @@ impl TurbulenceState {
         let kinetic_energy = 1.5 * (intensity * speed).powi(2);
         let state = Self {
             kinetic_energy,
-            dissipation: (0.09f32).powf(0.75) * kinetic_energy.powf(1.5) / length,
+            dissipation: math::powf(0.09f32, 0.75) * math::powf(kinetic_energy, 1.5) / length,
         };
         Error::check_finite("kinetic_energy", state.kinetic_energy.into())?;
         Error::check_finite("dissipation", state.dissipation.into())?;
@@ -112,7 +113,7 @@ impl Default for KEpsilon {
 /// ln(cosh x + r sinh x) for x, r ≥ 0, which neither overflows nor cancels.
 fn ln_cosh_sinh(x: f64, r: f64) -> f64 {
     // cosh x + r sinh x = e^x (1 + (r − 1)(1 − e^{−2x})/2)
-    x + (0.5 * (r - 1.0) * -(-2.0 * x).exp_m1()).ln_1p()
+    x + math::ln_1p(0.5 * (r - 1.0) * -math::exp_m1(-2.0 * x))
 }
 
 impl KEpsilon {
@@ -162,13 +163,13 @@ impl KEpsilon {
                 ln_cosh_sinh(x, a / (chi * lambda)),
             )
         } else {
-            ((b * chi * dt).ln_1p(), 0.0)
+            (math::ln_1p(b * chi * dt), 0.0)
         };
         // ∫C_μ 2S:S/χ dt = ln z/(C₁−1) and ∫χ dt = ln y/(C₂−1). Without strain ln z is 0.
         let growth = ln_z / (self.c1 - 1.0) - ln_y / (self.c2 - 1.0);
-        let k = (k * growth.exp()).min(1.0e30);
+        let k = (k * math::exp(growth)).min(1.0e30);
         let chi = if x > 1.0e-9 {
-            let (equilibrium, t) = ((a / b).sqrt(), x.tanh());
+            let (equilibrium, t) = ((a / b).sqrt(), math::tanh(x));
             equilibrium * (chi + equilibrium * t) / (equilibrium + chi * t)
         } else {
             chi / (1.0 + b * chi * dt)

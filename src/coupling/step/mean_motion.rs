@@ -17,6 +17,7 @@
 use super::held_motion::replayed;
 use super::locked_axes;
 use super::stage_data::{StepContext, StepInput, StepOutput};
+use crate::math;
 use crate::math::{Row, vector};
 use rapier3d::dynamics::{LockedAxes, RigidBody};
 use rapier3d::math::{Real, Rotation, Vector};
@@ -116,7 +117,7 @@ fn misses(input: &StepInput, output: &StepOutput, context: &StepContext) -> bool
     let (start, end) = (vector(output.start_angular), vector(output.end_angular));
     let reached = replayed(from, start, end, substeps);
     let cosine = reached.dot(Rotation::from_array(output.motion.attitude));
-    cosine.abs() < (0.5 * MISS).cos()
+    cosine.abs() < math::cos(0.5 * MISS)
 }
 
 /// The velocity at the end of a step after which rapier has `now`.
@@ -136,7 +137,7 @@ fn mean_spin(turn: Rotation, expected: Vector, count: usize) -> Vector {
     let half = Vector::new(turn.x, turn.y, turn.z);
     let sine = half.length();
     let (axis, angle) = if sine > 1e-12 {
-        (half / sine, 2.0 * sine.atan2(turn.w))
+        (half / sine, 2.0 * math::atan2(sine, turn.w))
     } else {
         (expected.normalize_or_zero(), 0.0)
     };
@@ -148,7 +149,7 @@ fn mean_spin(turn: Rotation, expected: Vector, count: usize) -> Vector {
     } else {
         angle
     };
-    axis * (2.0 * count * (whole / (2.0 * count)).tan())
+    axis * (2.0 * count * math::tan(whole / (2.0 * count)))
 }
 
 #[cfg(test)]

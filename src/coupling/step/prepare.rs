@@ -16,6 +16,7 @@ use crate::coupling::rapier_sets::RapierSets;
 use crate::coupling::registry::Registry;
 use crate::coupling::shared_constants::{ConstantsTable, Route, SharedConstants, layer_of};
 use crate::dynamics::crossing::CrossingConstants;
+use crate::math;
 use crate::math::{row, to_real};
 use rapier3d::dynamics::{LockedAxes, RigidBody, RigidBodyHandle};
 use rapier3d::math::{Real, Rotation, Vector};
@@ -383,7 +384,7 @@ fn add_crossing(
 
 /// How a part is set, in a fluid at rest.
 fn part_row(part: &PartState) -> PartRow {
-    let (sine, cosine) = part.deflection.sin_cos();
+    let (sine, cosine) = math::sin_cos(part.deflection);
     let factors = &part.factors;
     PartRow {
         velocity: [0.0, 0.0, 0.0, sine],

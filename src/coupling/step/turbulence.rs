@@ -5,6 +5,7 @@ use crate::coupling::environment::Environment;
 use crate::coupling::turbulence_memory::TurbulenceMemory;
 use crate::flow::FlowSample;
 use crate::fluid::Fluid;
+use crate::math;
 use crate::math::{Lanes, MOST_LANES, OnLanes, Row, row, vector};
 use crate::turbulence::{
     Eddies, LangevinMode, NoiseStream, SeenFluctuation, Turbulence, TurbulenceState,
@@ -156,9 +157,10 @@ impl StepTurbulence<'_> {
             let slip2 = memory.slip.length_squared();
             let fluctuation = Vector::from_array(pass(&mut seen, &eddies, slip2, noise.to_array()));
             own.seen.normalized = Vector::from_array(seen);
-            let integral_length = state.kinetic_energy.max(0.0).powf(1.5) / state.dissipation;
+            let integral_length =
+                math::powf(state.kinetic_energy.max(0.0), 1.5) / state.dissipation;
             let distance = point.distance(center);
-            let alike = (-distance / integral_length.max(f32::MIN_POSITIVE)).exp();
+            let alike = math::exp(-distance / integral_length.max(f32::MIN_POSITIVE));
             let mixed =
                 memory.fluctuation * alike + fluctuation * (1.0 - alike * alike).max(0.0).sqrt();
             if mixed.is_finite() && own.seen.normalized.is_finite() {

@@ -2,6 +2,7 @@
 
 use super::constants::CrossingConstants;
 use super::cut::{Cut, Place};
+use crate::math;
 use crate::math::to_real;
 use rapier3d::math::Vector;
 use rapier3d::na::{Rotation3, Vector3};
@@ -49,7 +50,7 @@ impl Hydrostatics {
         let center = under.moment / under.volume;
         found.center_of_buoyancy = world(center);
         let plane = under.waterplane;
-        if plane.area > 1e-9 * constants.whole.volume.powf(2.0 / 3.0) {
+        if plane.area > 1e-9 * math::powf(constants.whole.volume, 2.0 / 3.0) {
             let [x, z] = plane.first.map(|moment| moment / plane.area);
             let [xx, xz, zz] = plane.second;
             let own = [

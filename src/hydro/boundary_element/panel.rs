@@ -1,5 +1,6 @@
 //! One flat triangle and the exact potential of a uniform layer on it.
 
+use crate::math;
 use rapier3d::na::Vector3;
 
 /// A flat triangle with what the integrals need of it.
@@ -84,7 +85,7 @@ impl Panel {
             let sum = near + far;
             // A point on the edge has inward = 0, and 0 · ln(∞) must stay finite.
             let gap = (sum - edge.length).max(f64::MIN_POSITIVE);
-            let logarithm = ((sum + edge.length) / gap).ln();
+            let logarithm = math::ln((sum + edge.length) / gap);
             uniform += inward * logarithm;
             let line = end * far - start * near + (inward * inward + height * height) * logarithm;
             first += edge.outward * (0.5 * line);
@@ -94,7 +95,7 @@ impl Panel {
             let [ra, rb, rc] = distance;
             let triple = 2.0 * self.area * height.abs();
             let denominator = ra * rb * rc + a.dot(&b) * rc + b.dot(&c) * ra + c.dot(&a) * rb;
-            uniform -= 2.0 * height.abs() * triple.atan2(denominator);
+            uniform -= 2.0 * height.abs() * math::atan2(triple, denominator);
         }
         Potential {
             uniform,
@@ -121,7 +122,7 @@ impl Panel {
         let sum: f64 = self
             .edges
             .iter()
-            .map(|e| -(-e.length / half).ln_1p() / e.length)
+            .map(|e| -math::ln_1p(-e.length / half) / e.length)
             .sum();
         4.0 / 3.0 * self.area * self.area * sum
     }

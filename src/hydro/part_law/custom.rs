@@ -3,6 +3,7 @@
 use super::frozen_force::of_each;
 use super::place::PartPlace;
 use crate::error::Error;
+use crate::math;
 use crate::math::Scalar;
 use crate::math::spatial::{Blocks, Twist};
 use rand::{RngExt, SeedableRng};
@@ -83,7 +84,8 @@ impl CustomLaw {
             for _ in 0..1000 {
                 let mut vector = || {
                     let size = random.random_range(-3.0..2.0_f64);
-                    Vector3::from_fn(|_, _| random.random_range(-1.0..1.0)) * 10f64.powf(size)
+                    Vector3::from_fn(|_, _| random.random_range(-1.0..1.0))
+                        * math::powf(10f64, size)
                 };
                 let motion = PartMotion {
                     linear: vector(),

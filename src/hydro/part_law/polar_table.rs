@@ -2,6 +2,7 @@
 
 use super::place::{PartPlace, at, velocity_at};
 use crate::error::Error;
+use crate::math;
 use crate::math::spatial::{Blocks, Twist, cross, dot, product, skew};
 use crate::math::{Scalar, scalar_struct};
 use rapier3d::na::{Matrix3, Vector3};
@@ -251,7 +252,7 @@ impl PolarTable {
 
     /// The coefficients at an angle of attack, degrees, and a Reynolds number.
     pub fn at(&self, angle: f64, reynolds_number: f64) -> PolarRow {
-        let [lift, drag, moment] = self.coefficients(angle, reynolds_number.max(1e-9).ln());
+        let [lift, drag, moment] = self.coefficients(angle, math::ln(reynolds_number.max(1e-9)));
         PolarRow {
             angle,
             lift,
@@ -270,11 +271,16 @@ impl PolarTable {
             // The plate's force is in its middle.
             [mix(0), mix(1), mix(2) - self.reference * mix(3)]
         };
-        let above = self.tables.partition_point(|(re, _)| re.ln() < log_re);
+        let above = self
+            .tables
+            .partition_point(|(re, _)| math::ln(*re) < log_re);
         if above == 0 || above == self.tables.len() {
             return of(above.min(self.tables.len() - 1));
         }
-        let (low, high) = (self.tables[above - 1].0.ln(), self.tables[above].0.ln());
+        let (low, high) = (
+            math::ln(self.tables[above - 1].0),
+            math::ln(self.tables[above].0),
+        );
         let share = (log_re - low) / (high - low);
         let (low, high) = (of(above - 1), of(above));
         [0, 1, 2].map(|i| low[i] + share * (high[i] - low[i]))
@@ -317,7 +323,7 @@ fn whole_circle(rows: &[PolarRow]) -> Result<Vec<Row>, Error> {
     }
     let known = |row: &PolarRow| [row.lift, row.drag, row.moment, 0.0];
     let plate = |angle: f64| {
-        let (sine, cosine) = angle.to_radians().sin_cos();
+        let (sine, cosine) = math::sin_cos(angle.to_radians());
         let normal = 1.98 * sine / (0.56 + 0.44 * sine.abs());
         [normal * cosine, normal * sine + 0.02, 0.0, normal]
     };
@@ -426,8 +432,8 @@ impl<T: Scalar> PolarConstants<T> {
         let speed2 = ahead * ahead + rising * rising;
         let speed = speed2.sqrt();
         let [lift, drag, moment] = T::by_lane([ahead, rising, speed * self.reynolds_scale], |v| {
-            let angle = f64::atan2(-v[1], v[0]).to_degrees();
-            table.coefficients(angle, v[2].max(1e-9).ln())
+            let angle = math::atan2(-v[1], v[0]).to_degrees();
+            table.coefficients(angle, math::ln(v[2].max(1e-9)))
         });
         let by_speed = self.dynamic_area * speed;
         // Drag on both directions of the plane, lift that turns from forward to up.

@@ -25,6 +25,7 @@ use super::terms::{Evaluate, ViscousTerms, safe_inverse};
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::hydro::bluff_shape::{BluffShape, SPHERE};
+use crate::math;
 use crate::math::spatial::{cross, norm};
 use crate::math::{Lanes, Scalar, scalar_struct};
 use fearless_simd::Simd;
@@ -103,7 +104,7 @@ impl BluffConstants<f64> {
         let rho = f64::from(fluid.density());
         let nu = f64::from(fluid.kinematic_viscosity());
         let [a, b, c]: [f64; 3] = hydro.proxy.semi_axes.into();
-        let radius = (a * b * c).cbrt();
+        let radius = math::cbrt(a * b * c);
         let unknown = || BluffShape::of_ellipsoid(&hydro.proxy);
         let shape = hydro.bluff.clone().unwrap_or_else(unknown);
         let rest = 1.0 - plate_share;

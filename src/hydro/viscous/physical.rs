@@ -6,6 +6,7 @@ use crate::fluid::Fluid;
 use crate::geometry::Ellipsoid;
 use crate::hydro::properties::THIN;
 use crate::hydro::{HydroProperties, StokesResistance};
+use crate::math;
 use crate::math::{Scalar, scalar_struct};
 use rapier3d::na::{Vector2, Vector3};
 use std::f64::consts::PI;
@@ -250,10 +251,10 @@ fn creeping_resistance(hydro: &HydroProperties, plate_share: f64) -> StokesResis
     if plate_share == 1.0 || full <= 1.0 {
         return plate;
     }
-    let swelling = full.min(6.0 / PI).powf(0.4);
+    let swelling = math::powf(full.min(6.0 / PI), 0.4);
     let half = &hydro.planform.half_extents;
-    let mean = half.product().cbrt();
-    let semi_axes = half.map(|e| e * swelling * (mean / e).powf(0.28 * (swelling - 1.0)));
+    let mean = math::cbrt(half.product());
+    let semi_axes = half.map(|e| e * swelling * math::powf(mean / e, 0.28 * (swelling - 1.0)));
     let bluff = Ellipsoid { semi_axes }.stokes_resistance();
     let mixed = |plate, bluff: Vector3<f64>| bluff.lerp(&plate, plate_share);
     StokesResistance {

@@ -1,6 +1,7 @@
 //! How wide a fall swings, and how far from below its release it lands (thesis § 3.3.5).
 
 use crate::error::Error;
+use crate::math;
 use crate::motion::{FallEstimates, Regime};
 use rand::Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -114,7 +115,7 @@ pub(super) fn chaotic_factor(random: &mut impl Rng) -> f64 {
     loop {
         let normal: f64 = StandardNormal.sample(random);
         if normal.abs() <= 3.0 {
-            return 10f64.powf(normal / 3.0);
+            return math::powf(10f64, normal / 3.0);
         }
     }
 }

@@ -4,6 +4,7 @@ use super::database::{Entry, TrajectoryDatabase, place};
 use super::segment::{Glide, HarmonicFlutter, Segment};
 use super::tanabe_kaneko::{AngleCurve, Fall, TanabeKaneko};
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::Vector2;
 use smartcore::cluster::kmeans::{KMeans, KMeansParameters};
 use smartcore::linalg::basic::matrix::DenseMatrix;
@@ -99,7 +100,7 @@ impl TrajectoryDatabase {
             let span = (count.max(2) - 1) as f64;
             let ratio = range[1] / range[0];
             Ok((0..count)
-                .map(|i| range[0] * ratio.powf(i as f64 / span))
+                .map(|i| range[0] * math::powf(ratio, i as f64 / span))
                 .collect())
         };
         let horizontal = values("horizontal amplitude", params.horizontal, params.steps[0])?;

@@ -1,6 +1,7 @@
 //! Steady descent, spiral and helix as one curve (thesis (3.7)–(3.8)).
 
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::Vector3;
 
 /// x = A cos φ (1 + ε sin kφ), z = A sin φ (1 + ε sin kφ), y = −Ut with φ = Ωt, y up (the thesis's z).
@@ -80,7 +81,7 @@ impl UnifiedCurve {
     /// Radius, and its first two derivatives by φ.
     fn radius(&self, phi: f64) -> [f64; 3] {
         let (a, e, k) = (self.amplitude, self.ellipticity, self.petals);
-        let (sin, cos) = (k * phi).sin_cos();
+        let (sin, cos) = math::sin_cos(k * phi);
         [a * (1.0 + e * sin), a * e * k * cos, -a * e * k * k * sin]
     }
 
@@ -88,14 +89,14 @@ impl UnifiedCurve {
     pub fn position(&self, t: f64) -> Vector3<f64> {
         let phi = self.frequency * t;
         let [r, ..] = self.radius(phi);
-        Vector3::new(r * phi.cos(), -self.descent * t, r * phi.sin())
+        Vector3::new(r * math::cos(phi), -self.descent * t, r * math::sin(phi))
     }
 
     /// Velocity at time `t`, m/s.
     pub fn velocity(&self, t: f64) -> Vector3<f64> {
         let phi = self.frequency * t;
         let [r, dr, _] = self.radius(phi);
-        let (sin, cos) = phi.sin_cos();
+        let (sin, cos) = math::sin_cos(phi);
         Vector3::new(dr * cos - r * sin, 0.0, dr * sin + r * cos) * self.frequency
             - Vector3::y() * self.descent
     }
@@ -104,7 +105,7 @@ impl UnifiedCurve {
     pub fn acceleration(&self, t: f64) -> Vector3<f64> {
         let phi = self.frequency * t;
         let [r, dr, ddr] = self.radius(phi);
-        let (sin, cos) = phi.sin_cos();
+        let (sin, cos) = math::sin_cos(phi);
         let (radial, around) = (ddr - r, 2.0 * dr);
         Vector3::new(
             radial * cos - around * sin,

@@ -4,6 +4,7 @@
 use super::segment::{HarmonicFlutter, Segment};
 use super::tanabe_kaneko::AngleCurve;
 use crate::error::Error;
+use crate::math;
 use rand::{Rng, RngExt};
 use rapier3d::na::Vector2;
 use rstar::RTree;
@@ -63,8 +64,8 @@ impl PartialEq for TrajectoryDatabase {
 
 /// The place of a feature vector in the index, where lengths count by ratio, because they span decades.
 pub(super) fn place(feature: &Vector2<f64>) -> [f64; 2] {
-    let across = (feature.x.abs() + 1e-3).ln() - 1e-3f64.ln();
-    [across.copysign(feature.x), (-feature.y).max(1e-9).ln()]
+    let across = math::ln(feature.x.abs() + 1e-3) - math::ln(1e-3);
+    [across.copysign(feature.x), math::ln((-feature.y).max(1e-9))]
 }
 
 impl TrajectoryDatabase {
@@ -129,7 +130,7 @@ impl TrajectoryDatabase {
             let feature = entry.segment.feature();
             let point = GeomWithData::new(place(&feature), index as u32);
             members[entry.class as usize].push(point);
-            flattest = flattest.min((-feature.y).atan2(feature.x.abs()));
+            flattest = flattest.min(math::atan2(-feature.y, feature.x.abs()));
         }
         let mut centers = Vec::with_capacity(classes.len());
         for (class, members) in members.iter().enumerate() {
@@ -190,7 +191,7 @@ impl TrajectoryDatabase {
     /// The class of a feature vector: the one whose mean is nearest, by ratio of lengths.
     pub fn class_of(&self, feature: Vector2<f64>) -> u32 {
         let here = place(&feature);
-        let distance = |center: &[f64; 2]| (center[0] - here[0]).hypot(center[1] - here[1]);
+        let distance = |center: &[f64; 2]| math::hypot(center[0] - here[0], center[1] - here[1]);
         let mut best = 0;
         for (class, center) in self.centers.iter().enumerate() {
             if distance(center) < distance(&self.centers[best]) {

@@ -4,6 +4,7 @@
 use super::piece::{Instant, half_turns};
 use super::track::MotionPath;
 use crate::error::Error;
+use crate::math;
 use crate::motion::Regime;
 use rapier3d::math::{Real, Rotation, Vector};
 use rapier3d::na::{Quaternion, UnitQuaternion, Vector3};
@@ -153,9 +154,9 @@ impl Window {
             up += y[i] * v[i];
         }
         // Turned by θ the product of the horizontal parts is along·cos θ + across·sin θ.
-        let product = along.hypot(across) + up;
+        let product = math::hypot(along, across) + up;
         let square = (self.square + other.square - 2.0 * product).max(0.0);
-        (square / x.len() as f64, across.atan2(along))
+        (square / x.len() as f64, math::atan2(across, along))
     }
 }
 

@@ -7,6 +7,7 @@ use super::piece::{Course, Instant, Piece};
 use super::search_tree::SearchTree;
 use super::segment::Glide;
 use super::synthesis::Synthesizer;
+use crate::math;
 use crate::motion::Regime;
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
@@ -47,7 +48,7 @@ impl Synthesizer {
         let released = tree(match self.params.release_angle {
             Some(angle) => {
                 let angle = angle.abs().max(self.database.flattest());
-                Vector2::new(angle.cos(), -angle.sin()) * feature.norm()
+                Vector2::new(math::cos(angle), -math::sin(angle)) * feature.norm()
             }
             None => feature,
         });

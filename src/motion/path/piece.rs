@@ -3,6 +3,7 @@
 use super::curve::UnifiedCurve;
 use super::segment::Segment;
 use super::tanabe_kaneko::AngleCurve;
+use crate::math;
 use crate::motion::Regime;
 use rapier3d::na::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
@@ -99,7 +100,7 @@ impl Course<'_> {
                 // The curve begins at +x along +z; here it begins along +x.
                 let place = |v: Vector3<f64>| Vector3::new(v.z, v.y, -v.x * sense);
                 let acceleration = place(curve.acceleration(t));
-                let (sin, cos) = (curve.frequency * t).sin_cos();
+                let (sin, cos) = math::sin_cos(curve.frequency * t);
                 let around = place(Vector3::new(-sin, 0.0, cos));
                 Instant {
                     position: place(curve.position(t) - curve.position(0.0)),

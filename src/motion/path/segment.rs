@@ -1,6 +1,7 @@
 //! Motion segments: a harmonic flutter cut at its turning points (thesis (3.6)).
 
 use crate::error::Error;
+use crate::math;
 use rapier3d::na::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -37,8 +38,8 @@ impl HarmonicFlutter {
     pub fn position(&self, t: f64) -> Vector2<f64> {
         let phase = self.frequency * t;
         Vector2::new(
-            -self.horizontal / self.frequency * phase.sin(),
-            -t - 0.5 * self.vertical / self.frequency * (2.0 * phase).cos(),
+            -self.horizontal / self.frequency * math::sin(phase),
+            -t - 0.5 * self.vertical / self.frequency * math::cos(2.0 * phase),
         )
     }
 
@@ -46,8 +47,8 @@ impl HarmonicFlutter {
     pub fn velocity(&self, t: f64) -> Vector2<f64> {
         let phase = self.frequency * t;
         Vector2::new(
-            -self.horizontal * phase.cos(),
-            -1.0 + self.vertical * (2.0 * phase).sin(),
+            -self.horizontal * math::cos(phase),
+            -1.0 + self.vertical * math::sin(2.0 * phase),
         )
     }
 

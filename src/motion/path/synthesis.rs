@@ -8,6 +8,7 @@ use super::params::SynthesisParams;
 use super::piece::{Instant, Units};
 use super::track::{Key, MotionPath};
 use crate::error::Error;
+use crate::math;
 use crate::math::{to_real, to_rotation};
 use crate::motion::{DimensionlessNumbers, MotionGraph, Regime};
 use rand::SeedableRng;
@@ -103,7 +104,7 @@ impl Synthesizer {
         let strength = params.wind / (params.calming_wind * descent);
         Ok(Self {
             database,
-            graph: calmed(&graph, (-strength * strength).exp())?.restricted(&possible)?,
+            graph: calmed(&graph, math::exp(-strength * strength))?.restricted(&possible)?,
             main,
             units: Units {
                 length: chord,

@@ -8,6 +8,7 @@
 //! the lift opposes the velocity normal to the plate, and A⊥ = 4.1, A∥ = 0.9 flutters as in Fig. 3.4a.
 
 use crate::error::Error;
+use crate::math;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A strip in its glide plane: linear drag, Kutta lift, and the torque of its center of pressure.
@@ -79,7 +80,7 @@ impl TanabeKaneko {
     /// Rate of change of a state.
     pub fn rate(&self, state: &State) -> State {
         let [_, _, theta, u, v, spin] = *state;
-        let (sin, cos) = theta.sin_cos();
+        let (sin, cos) = math::sin_cos(theta);
         let speed2 = u * u + v * v;
         let speed = speed2.sqrt();
         // α = arctan(u/v): the velocity is σV (sin α, cos α), σ the sign of v.

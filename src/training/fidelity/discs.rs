@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::ViscousLaw;
+use crate::math;
 use crate::motion::{Classifier, DimensionlessNumbers, Outline, PhaseDiagram, Regime, Trajectory};
 use crate::training::{Experiment, Release};
 use rapier3d::parry::shape::Cylinder;
@@ -95,7 +96,7 @@ impl Disc {
         let density = ratio * f64::from(LIQUID);
         // At high Reynolds numbers ½ρU²·1.17 = (ρ_s − ρ_f) g t; at lower ones U follows from the same
         // balance with the drag at the given Re, and the viscosity from U.
-        let drag = (64.0 / (PI * reynolds) * (1.0 + 0.138 * reynolds.powf(0.792))).max(1.17);
+        let drag = (64.0 / (PI * reynolds) * (1.0 + 0.138 * math::powf(reynolds, 0.792))).max(1.17);
         let numbers = DimensionlessNumbers::new(
             Outline::Round,
             DIAMETER,

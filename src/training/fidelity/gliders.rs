@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::ViscousLaw;
+use crate::math;
 use crate::motion::Trajectory;
 use crate::training::{Experiment, Release};
 use rapier3d::math::Vector;
@@ -92,8 +93,8 @@ impl Glider {
         let body = ImmersedBody::new(self.hydro.clone()).with_law(*law)?;
         let mut experiment = Experiment::new(body, self.mass, Fluid::new(1.2, 1.5e-5)?);
         let mut release = Release {
-            tilt: pitch.hypot(roll),
-            tilt_axis: pitch.atan2(roll),
+            tilt: math::hypot(pitch, roll),
+            tilt_axis: math::atan2(pitch, roll),
             ..Release::default()
         };
         release.velocity = release.orientation(&self.hydro) * Vector3::new(0.0, THROW, 0.0);
@@ -118,7 +119,7 @@ impl Glider {
         let up = release.normal.y.signum();
         let moved = last.position - first.position;
         GliderFall {
-            ratio: moved.x.hypot(moved.z) / -moved.y,
+            ratio: math::hypot(moved.x, moved.z) / -moved.y,
             upright: fall.moments.iter().all(|m| m.normal.y * up > 0.0),
         }
     }

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::ViscousLaw;
+use crate::math;
 use crate::motion::{Classifier, Trajectory};
 use crate::training::{Experiment, Release};
 use rapier3d::geometry::SharedShape;
@@ -106,7 +107,7 @@ impl PaperFall {
         let seen = Classifier::default().observe(moments);
         Some(Self {
             descent: -moved.y / time,
-            drift: moved.x.hypot(moved.z) / time,
+            drift: math::hypot(moved.x, moved.z) / time,
             tumbles: seen.flips >= TUMBLES.0 && seen.tumbling() >= TUMBLES.1,
         })
     }
@@ -219,7 +220,7 @@ impl Paper {
                     let angle = (f32::from(k % 6) + 0.5) * std::f32::consts::FRAC_PI_3;
                     let out = r * 2.0 / 3f32.sqrt();
                     let y = if k < 6 { -half } else { half };
-                    Vector::new(out * angle.cos(), y, out * angle.sin())
+                    Vector::new(out * math::cos(angle), y, out * math::sin(angle))
                 };
                 let corners: Vec<Vector> = (0..12).map(corner).collect();
                 let hull = SharedShape::convex_hull(&corners).expect("twelve corners of a prism");

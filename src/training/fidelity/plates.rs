@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::ViscousLaw;
+use crate::math;
 use crate::motion::{Classifier, Regime, Trajectory};
 use crate::training::{Experiment, Release};
 use rapier3d::math::Vector;
@@ -149,12 +150,12 @@ impl Plate {
             .windows(2)
             .map(|pair| {
                 let (a, b) = (pair[0].normal, pair[1].normal);
-                a.cross(&b).dot(&pair[0].long_axis).atan2(a.dot(&b))
+                math::atan2(a.cross(&b).dot(&pair[0].long_axis), a.dot(&b))
             })
             .sum();
         PlateFall {
             tumbling: Classifier::default().observe(moments).tumbling(),
-            drift: moved.x.hypot(moved.z) / time,
+            drift: math::hypot(moved.x, moved.z) / time,
             descent: -moved.y / time,
             spin: turned.abs() / time,
         }

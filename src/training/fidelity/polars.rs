@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::fluid::Fluid;
 use crate::hydro::HydroProperties;
 use crate::hydro::viscous::ViscousLaw;
+use crate::math;
 use rapier3d::math::Vector;
 use rapier3d::na::Vector3;
 use rapier3d::parry::shape::{Cuboid, Cylinder};
@@ -174,7 +175,7 @@ impl StaticPlate {
         let mut plate = FreeBody::new(&body, &self.mass, &water)?;
         let force = 0.5 * density * SPEED * SPEED * self.hydro.planform.area;
         let point = |degree: u32| {
-            let (sine, cosine) = f64::from(degree).to_radians().sin_cos();
+            let (sine, cosine) = math::sin_cos(f64::from(degree).to_radians());
             // The chord lies along z, the normal along y, and the pressure is from below.
             let velocity = Vector3::new(0.0, -sine, cosine) * SPEED;
             plate.set_velocity(velocity, Vector3::zeros());
@@ -231,7 +232,7 @@ impl Polar {
     /// its own broadside drag: for plates that stall before.
     pub fn stalled_normal(&self) -> f64 {
         let by_angle = |degree: usize| {
-            let (sine, cosine) = (degree as f64).to_radians().sin_cos();
+            let (sine, cosine) = math::sin_cos((degree as f64).to_radians());
             let PolarPoint { lift, drag, .. } = self.points[degree];
             let separated = 0.505 / (0.222 + 0.283 / sine) * self.points[90].drag;
             (lift * cosine + drag * sine) / separated
@@ -244,7 +245,7 @@ impl Polar {
     pub fn stalled_thrust(&self) -> f64 {
         let from = self.stall().0 as usize + 1;
         let thrust = |degree: usize| {
-            let (sine, cosine) = (degree as f64).to_radians().sin_cos();
+            let (sine, cosine) = math::sin_cos((degree as f64).to_radians());
             let PolarPoint { lift, drag, .. } = self.points[degree];
             (lift * sine - drag * cosine) / (lift * cosine + drag * sine)
         };
