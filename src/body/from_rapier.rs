@@ -4,7 +4,7 @@ use super::DryMass;
 use super::division::{Division, added_mass_of, parts_of};
 use crate::error::Error;
 use crate::geometry::{Surface, rounded_volume};
-use crate::hydro::{Accuracy, Hull, HydroProperties};
+use crate::hydro::{Accuracy, AddedMassSource, Hull, HydroProperties};
 use crate::math::{to_f64, to_quaternion, to_real, to_rotation};
 use rapier3d::dynamics::{
     MassProperties, RigidBody, RigidBodyAdditionalMassProps, RigidBodyHandle, RigidBodySet,
@@ -27,7 +27,7 @@ impl HydroProperties {
         colliders: &ColliderSet,
         handle: RigidBodyHandle,
     ) -> Result<Self, Error> {
-        Self::from_body_with(bodies, colliders, handle, Accuracy::Proxy)
+        Self::from_body_with(bodies, colliders, handle, Accuracy::default())
     }
 
     /// [`HydroProperties::from_body`] with its colliders divided into parts as told.
@@ -96,6 +96,7 @@ impl HydroProperties {
         whole.parts = parts_of(parts, center, division)?;
         if !whole.parts.is_empty() {
             whole.added_mass = added_mass_of(&whole.parts);
+            whole.added_mass_source = AddedMassSource::Parts;
         }
         Ok(whole)
     }

@@ -19,7 +19,7 @@ use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Version of what is written. Others are refused.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 
 /// What is written, in this order.
 #[derive(Serialize)]

@@ -1,5 +1,6 @@
 //! Added mass: the inertia of the fluid that a moving body drags along.
 
+use crate::math;
 use rapier3d::na::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
 /// Share of the largest diagonal entry that may be the rounding of another.
@@ -77,6 +78,15 @@ impl AddedMass {
         }
     }
 
+    /// The same tensor times a factor.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            linear: self.linear * factor,
+            coupling: self.coupling * factor,
+            angular: self.angular * factor,
+        }
+    }
+
     /// The symmetric 6×6 matrix `[A₁₁ A₁₂; A₁₂ᵀ A₂₂]`.
     pub fn to_matrix6(&self) -> Matrix6<f64> {
         let mut m = Matrix6::zeros();
@@ -108,7 +118,9 @@ impl AddedMass {
             + (self.angular - self.angular.transpose()).norm();
         // Scale rows and columns so that m³ and m⁵ compare. What is rounding beside the largest of its block,
         // as a rod's inertia about its own axis is once it has been turned, is left at that.
-        let largest = [self.linear, self.angular].map(|block| block.diagonal().amax());
+        // About its center a ball's inertia is rounding as a whole: beside that of a body of its size.
+        let [linear, angular] = [self.linear, self.angular].map(|block| block.diagonal().amax());
+        let largest = [linear, angular.max(math::cbrt(linear).powi(5))];
         let largest = Vector6::from_fn(|i, _| largest[i / 3]);
         let diagonal = m.diagonal();
         if (0..6).any(|i| diagonal[i] < -ROUNDING * largest[i]) {
@@ -216,6 +228,22 @@ mod tests {
         let (a, b) = (sample(), sample().about(Vector3::new(0.5, 0.25, -2.0)));
         let sum = (a + b).to_matrix6();
         assert!((sum - a.to_matrix6() - b.to_matrix6()).norm() < 1e-12);
+    }
+
+    /// Balls from a tenth of a millimetre to a hundred metres, at any place: their inertia is nothing but rounding.
+    #[test]
+    fn balls_of_any_size_are_physical() {
+        for exponent in -40..=20 {
+            let radius = 1.3_f32.powi(exponent);
+            let ball = rapier3d::parry::shape::Ball::new(radius);
+            let hydro = crate::hydro::HydroProperties::from_shape(&ball).unwrap();
+            assert!(hydro.check().is_ok(), "{radius}");
+            for angle in 0..10 {
+                let turn = Rotation3::from_euler_angles(0.3, 0.17 * f64::from(angle), 0.9);
+                let turned = hydro.added_mass.rotated(&turn);
+                assert!(turned.is_physical(), "{radius} {angle}");
+            }
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod added_mass;
+mod added_mass_source;
 mod bluff_shape;
 mod bluff_side;
 #[cfg(feature = "bake")]
@@ -17,11 +18,13 @@ mod planform;
 mod properties;
 mod scope;
 mod silhouette;
+mod solids;
 mod strips;
 pub(crate) mod viscous;
 
 pub use accuracy::Accuracy;
 pub use added_mass::AddedMass;
+pub use added_mass_source::AddedMassSource;
 pub use bluff_shape::BluffShape;
 pub use ellipsoid::StokesResistance;
 pub use hull::{Hull, Submerged, Waterplane};
@@ -32,3 +35,4 @@ pub use planform::Planform;
 pub use properties::HydroProperties;
 pub use scope::OutOfScope;
 use silhouette::Silhouette;
+pub use solids::Solid;

@@ -1,8 +1,10 @@
 //! Everything the fluid feels of a shape, computed once.
 
-use super::{AddedMass, BluffShape, Hull, OutOfScope, Planform, Silhouette};
+use super::solids::Measured;
+use super::{AddedMass, AddedMassSource, BluffShape, Hull, OutOfScope, Planform, Silhouette};
 use crate::error::Error;
 use crate::geometry::{Ellipsoid, Surface, VolumeIntegrals};
+use crate::math;
 use rapier3d::na::{Matrix3, Rotation3, Vector3};
 use rapier3d::parry::shape::Shape;
 
@@ -40,6 +42,8 @@ pub struct HydroProperties {
     pub reference: Vector3<f64>,
     /// Added mass per unit fluid density about `reference`, along the axes of the frame.
     pub added_mass: AddedMass,
+    /// Where `added_mass` is from, and so how accurate it is.
+    pub added_mass_source: AddedMassSource,
     /// What the shape shows to a fluid that flows against its broad side.
     pub planform: Planform,
     /// Ellipsoid with the same three principal shadows as the shape, along the planform's axes.
@@ -80,10 +84,10 @@ impl HydroProperties {
         Ok(Self::with_hull(&surface, hull, Vector3::zeros()))
     }
 
-    /// Properties of a closed surface, referred to `reference`, with the added mass of the proxy
-    /// ellipsoid.
+    /// Properties of a closed surface, referred to `reference`, with the added mass of
+    /// [`Accuracy::Calibrated`](super::Accuracy).
     ///
-    /// [`Accuracy`](super::Accuracy) says how good that proxy is. The [hull](HydroProperties::hull) is the surface itself.
+    /// [`HydroProperties::added_mass_source`] says how good that is. The [hull](HydroProperties::hull) is the surface itself.
     ///
     /// ```
     /// use rapier3d_immersed::HydroProperties;
@@ -167,8 +171,9 @@ impl HydroProperties {
         let plate = bluff.is_none();
         let out_of_scope =
             OutOfScope::of(surface, integrals.centroid, &axes, &shadows, plate, convex);
-        let added_mass = proxy
-            .added_mass()
+        let (added_mass, added_mass_source) =
+            Measured::new(surface, integrals, &axes, convex).added_mass(&proxy, thickness(&proxy));
+        let added_mass = added_mass
             .rotated(&axes)
             .about(reference - integrals.centroid);
         Self {
@@ -176,6 +181,7 @@ impl HydroProperties {
             centroid: integrals.centroid,
             reference,
             added_mass,
+            added_mass_source,
             planform,
             proxy,
             bluff,
@@ -185,7 +191,7 @@ impl HydroProperties {
         }
     }
 
-    /// Replaces the proxy's added mass by one computed elsewhere, which refers to
+    /// Replaces the added mass by one computed elsewhere, which refers to
     /// `self.reference` and the axes of the frame.
     ///
     /// # Errors
@@ -206,6 +212,7 @@ impl HydroProperties {
             return Err(Error::UnphysicalAddedMass);
         }
         self.added_mass = added_mass;
+        self.added_mass_source = AddedMassSource::Given;
         Ok(self)
     }
 
@@ -217,9 +224,27 @@ impl HydroProperties {
     /// 0 for a body that is purely a plate to every law, 1 from a little more on: what belongs to the edges
     /// of a slab, which thin plates do without.
     pub(crate) fn thickness(&self) -> f64 {
-        let semi_axes = &self.proxy.semi_axes;
-        let t = ((semi_axes.z / semi_axes.y - THIN) / 0.05).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
+        thickness(&self.proxy)
+    }
+
+    /// The added mass of the table, for plates too, if the shape is a solid that is tabulated.
+    pub(super) fn tabulated(mut self) -> Self {
+        if !self.parts.is_empty() {
+            let parts = std::mem::take(&mut self.parts).into_iter();
+            self.parts = parts.map(Self::tabulated).collect();
+            let sum = |sum: AddedMass, part: &Self| sum + part.added_mass;
+            self.added_mass = self.parts.iter().fold(AddedMass::zero(), sum);
+        } else if let (true, Some(surface)) = (self.planform.fraction >= 1.0, self.hull.surface()) {
+            let (integrals, axes) = (surface.volume_integrals(), &self.planform.axes);
+            let measured = Measured::new(&surface, &integrals, axes, surface.is_convex());
+            let (added_mass, source) = measured.added_mass(&self.proxy, 1.0);
+            if let AddedMassSource::Table { .. } = source {
+                let own = added_mass.rotated(axes);
+                self.added_mass = own.about(self.reference - self.centroid);
+                self.added_mass_source = source;
+            }
+        }
+        self
     }
 
     /// The added mass that a body has in every direction, per unit density, m³: the smallest principal one about
@@ -236,6 +261,13 @@ impl HydroProperties {
     pub fn box_fill(&self) -> f64 {
         self.volume / (8.0 * self.planform.half_extents.product())
     }
+}
+
+/// See [`HydroProperties::thickness`].
+fn thickness(proxy: &Ellipsoid) -> f64 {
+    let semi_axes = &proxy.semi_axes;
+    let t = ((semi_axes.z / semi_axes.y - THIN) / 0.05).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
 /// Principal axes of a solid as the columns of a rotation: x the longest, z the shortest.
@@ -281,7 +313,7 @@ fn rounded(mut proxy: Ellipsoid) -> Ellipsoid {
         return proxy;
     }
     if alike(axes.x, axes.z) {
-        *axes = Vector3::repeat(axes.product().cbrt());
+        *axes = Vector3::repeat(math::cbrt(axes.product()));
     } else if alike(axes.x, axes.y) {
         let mean = (axes.x * axes.y).sqrt();
         (axes.x, axes.y) = (mean, mean);

@@ -228,6 +228,7 @@ fn strip(
             coupling: AddedMass::zero().coupling,
             angular: span * span.transpose() * (about_span * fraction),
         },
+        added_mass_source: whole.added_mass_source,
         planform: Planform {
             center,
             area,

@@ -6,6 +6,7 @@
 mod bodies;
 mod coupled;
 mod sheets;
+mod solids;
 mod symmetry;
 
 use rapier3d_immersed::AddedMass;

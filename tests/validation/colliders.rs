@@ -303,10 +303,10 @@ fn flat_and_slender_limits() {
         let hydro = HydroProperties::from_shape(shape.as_ref()).unwrap();
         hydro.check().unwrap();
         let added = hydro.added_mass_about(hydro.centroid);
-        // By their shadows 8/(3π) of a cylinder's and 4/π of a cone's.
+        // By their shadows 8/(3π) of a cylinder's and 4/π of a cone's; along it what blunt ends push.
         let across = added.linear[(0, 0)] / hydro.volume;
         assert!(across > 0.84 && across < 1.29, "{across}");
-        assert!(added.linear[(1, 1)] < 1e-3 * hydro.volume);
+        assert!(added.linear[(1, 1)] < 3e-3 * hydro.volume);
     }
 }
 

@@ -4,7 +4,7 @@ use super::params::{BoundaryElementParams, BoundaryElementReport, BoundaryElemen
 use super::shape::cells;
 use crate::error::Error;
 use crate::geometry::Surface;
-use crate::hydro::{AddedMass, HydroProperties};
+use crate::hydro::{AddedMass, AddedMassSource, HydroProperties};
 use rapier3d::math::{Pose, Vector};
 use rapier3d::na::Vector3;
 use rapier3d::parry::shape::Shape;
@@ -37,7 +37,12 @@ impl HydroProperties {
             );
         }
         // A rotation rounds, and its rounding must not count as asymmetry.
-        self.with_added_mass(AddedMass::from_matrix6(&added_mass.to_matrix6()))
+        let added_mass = AddedMass::from_matrix6(&added_mass.to_matrix6());
+        let mut found = self.with_added_mass(added_mass)?;
+        found.added_mass_source = AddedMassSource::BoundaryElements {
+            estimated_error: report.estimated_error.unwrap_or(f64::INFINITY),
+        };
+        Ok(found)
     }
 }
 

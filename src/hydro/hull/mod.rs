@@ -92,6 +92,18 @@ impl Hull {
         }
     }
 
+    /// The closed surface that it is, if it is one.
+    pub(in crate::hydro) fn surface(&self) -> Option<Surface> {
+        match self {
+            Self::Polyhedron {
+                vertices,
+                triangles,
+            } => Some(Surface::unchecked(vertices.clone(), triangles.clone())),
+            Self::Several(hulls) if hulls.len() == 1 => hulls[0].surface(),
+            Self::Ellipsoid { .. } | Self::Several(_) => None,
+        }
+    }
+
     /// The hull of a rapier shape in the shape's own frame: balls in closed form, other round shapes as polyhedra of few
     /// facets (see [`Hull`]), meshes by their own triangles, compounds by the sum of their shapes.
     ///
