@@ -17,8 +17,10 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
 
 const TEMPLATE: &str = include_str!("viewer.html");
-const SCRIPTS: [&str; 4] = [
+const SCRIPTS: [&str; 6] = [
+    include_str!("viewer/vectors.js"),
     include_str!("viewer/recording.js"),
+    include_str!("viewer/camera.js"),
     include_str!("viewer/solids.js"),
     include_str!("viewer/overlay.js"),
     include_str!("viewer/controls.js"),

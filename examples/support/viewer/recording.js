@@ -1,4 +1,4 @@
-// What is recorded: poses and forces out of the page's bytes, and the camera that looks at them.
+// What is recorded: poses and forces out of the page's bytes.
 
 const element = id => document.getElementById(id);
 const header = JSON.parse(element("header").textContent);
@@ -20,13 +20,7 @@ function decoded(text) {
   return bytes;
 }
 
-// Vectors, and a body's pose at a time.
-
-const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const scaled = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
-const unit = a => scaled(a, 1 / (Math.hypot(...a) || 1));
+// A body's pose at a time.
 
 /** Writes x, y, z and the quaternion x, y, z, w of a recorded frame; html.rs describes the six words. */
 function key(run, frame, body, out) {
@@ -75,45 +69,8 @@ function forces(run, time, body) {
 }
 const forceColors = { weight: "#666", drag: "#d32f2f", lift: "#1e5ac8", "added mass": "#e08a00", buoyancy: "#00897b", thrust: "#8e24aa" };
 
-// Camera.
-
-const view = {};
-function resetView() {
-  const from = add(header.eye, header.target, -1);
-  view.target = header.target.slice();
-  view.distance = Math.hypot(...from);
-  view.turn = Math.atan2(from[0], from[2]);
-  view.tilt = Math.asin(from[1] / view.distance);
-}
-resetView();
-
 /** Whether the camera goes with the body that is picked: in each viewport with that of its run. */
 const follows = () => picked >= 0 && element("follow").checked;
 
-/** Where the camera is, its axes, and the matrix to clip coordinates of a viewport, column by column. */
-function cameraOf({ width, height, run }) {
-  const { distance, turn, tilt } = view;
-  const target = follows() ? place(run, state.time, picked) : view.target;
-  const back = [Math.cos(tilt) * Math.sin(turn), Math.sin(tilt), Math.cos(tilt) * Math.cos(turn)];
-  const eye = add(target, back, distance), ahead = scaled(back, -1);
-  const right = unit(cross(ahead, [0, 1, 0])), up = cross(right, ahead);
-  // The field of view is that of the shorter side, so that narrow viewports lose nothing.
-  const focal = 1 / Math.tan(header.fieldOfView / 2), shorter = Math.min(width, height);
-  const near = 0.02 * distance, far = 20 * distance + 50, depth = (far + near) / (far - near);
-  const rows = [scaled(right, focal * shorter / width), scaled(up, focal * shorter / height), scaled(ahead, depth), ahead];
-  const matrix = new Float32Array(16);
-  rows.forEach((row, i) => {
-    for (let k = 0; k < 3; k++) matrix[4 * k + i] = row[k];
-    matrix[12 + i] = -dot(row, eye);
-  });
-  matrix[14] -= 2 * far * near / (far - near);
-  return { eye, right, up, matrix };
-}
-
-/** Pixels of the page, and depth; null for what is behind. */
-function projected(camera, rect, p) {
-  const m = camera.matrix, clip = i => m[i] * p[0] + m[4 + i] * p[1] + m[8 + i] * p[2] + m[12 + i];
-  const w = clip(3);
-  if (w <= 0.01 * view.distance) return null;
-  return [rect.x + (0.5 + 0.5 * clip(0) / w) * rect.width, rect.y + (0.5 - 0.5 * clip(1) / w) * rect.height, w];
-}
+/** What the camera of a viewport looks at. */
+const targetOf = ({ run }) => follows() ? place(run, state.time, picked) : view.target;
