@@ -1,0 +1,5 @@
+//! What the workbench promises.
+
+mod commands;
+mod methods;
+mod time;
