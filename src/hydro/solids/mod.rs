@@ -315,7 +315,7 @@ mod tests {
         assert!((radius - 0.5).abs() < 1e-3 && (height - 1.0).abs() < 1e-3);
         let own = cone.added_mass_about(cone.centroid);
         let turned = surface(&Cone::new(0.5, 0.5)).map(|v| Vector3::new(v.x, -v.y, -v.z));
-        let turned = HydroProperties::from_surface(&turned, Vector3::zeros());
+        let turned = HydroProperties::from_surface(&turned, Vector3::zeros()).tabulated();
         let flipped = turned.added_mass_about(turned.centroid);
         assert!(own.coupling.amax() > 0.01 * own.linear.amax());
         // Turned by half a turn about x, A₁₂ along (z, x) keeps its sign and that along (x, z) does not.
