@@ -21,10 +21,10 @@ pub const HALF_WIDTH: f64 = 1.0;
 const LENGTH: f64 = 12.0;
 /// Rise of the banks over the way across.
 const SLOPE: f64 = 0.3;
-/// Where the log floats, m along the current, and its radius and length, m.
+/// Where the log floats, m along the current, and its radius and length, m: so short that its ends are clear of the banks.
 const LOG: f64 = 1.35;
 const LOG_RADIUS: f64 = 0.07;
-const LOG_LENGTH: f64 = 1.7;
+const LOG_LENGTH: f64 = 1.4;
 /// Where the leaves come from: along the current, m, and over the water, m.
 const UPSTREAM: f64 = -2.6;
 const LOWEST: f64 = 0.6;

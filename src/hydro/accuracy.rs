@@ -11,8 +11,8 @@ use rapier3d::parry::shape::Shape;
 ///
 /// # When the proxy ellipsoid will do
 /// Difference between the ellipsoid with the same three shadows and the shape, measured with the
-/// `added_mass` example; rotations relative to the larger of added and displaced inertia. Of boxes that are not thin the
-/// default has it in a table, within 1 %; [`Accuracy::Tabulated`] of cylinders, cones and capsules, too.
+/// `added_mass` example; rotations relative to the larger of added and displaced inertia. Of bodies that are not thin, the
+/// default has these shapes in a table, within 1 %.
 ///
 /// | shape | translation | rotation |
 /// |---|---|---|
@@ -43,16 +43,13 @@ use rapier3d::parry::shape::Shape;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Accuracy {
-    /// What the laws are tested with, in microseconds. Of boxes that are not thin, as whatever shape they come, that of a table; of
-    /// thin plates, round solids and all other shapes that of the proxy ellipsoid.
+    /// What the laws were calibrated with, in microseconds. Of boxes, cylinders, cones and capsules, as whatever shape they
+    /// come, that of a table; of thin plates and all other shapes that of the proxy ellipsoid.
     #[default]
     Calibrated,
-    /// The table for cylinders, cones and capsules, too: the proxy's errors are above. A log that lies in a stream against posts
-    /// stays there with the ellipsoid's, and creeps upstream at up to 1 cm/s with its true one, which is not understood.
-    ///
-    /// And for thin plates: rectangles and discs, thinner than a quarter of their width. Their true added mass is some
+    /// The table for thin plates, too: rectangles and discs, thinner than a quarter of their width. Their true added mass is some
     /// 6 % more broadside, 11 % more in rotation; but the coefficients of [`PhysicalLaw`](crate::PhysicalLaw) were found with
-    /// the ellipsoid's, and five of 24 published plates and papers are missed with this.
+    /// the ellipsoid's, and with this five bars of published plates and papers are missed that are met without.
     Tabulated,
     /// The shape's own, by boundary elements (feature `bake`). It takes up to seconds: see
     /// [`boundary_element`](super::boundary_element).

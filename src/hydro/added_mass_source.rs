@@ -30,7 +30,7 @@ use super::Solid;
 pub enum AddedMassSource {
     /// Lamb's closed form for the ellipsoid that the shape is: right to the shape's facets.
     Ellipsoid,
-    /// The table of boxes, cylinders, cones and capsules (all but boxes: with [`Accuracy::Tabulated`](super::Accuracy)) by boundary elements: right to 1 %.
+    /// The table of boxes, cylinders, cones and capsules by boundary elements: right to 1 %.
     Table {
         /// The solid that the shape was recognised as.
         solid: Solid,

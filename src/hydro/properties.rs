@@ -1,9 +1,7 @@
 //! Everything the fluid feels of a shape, computed once.
 
 use super::solids::Measured;
-use super::{
-    AddedMass, AddedMassSource, BluffShape, Hull, OutOfScope, Planform, Silhouette, Solid,
-};
+use super::{AddedMass, AddedMassSource, BluffShape, Hull, OutOfScope, Planform, Silhouette};
 use crate::error::Error;
 use crate::geometry::{Ellipsoid, Surface, VolumeIntegrals};
 use crate::math;
@@ -173,12 +171,8 @@ impl HydroProperties {
         let plate = bluff.is_none();
         let out_of_scope =
             OutOfScope::of(surface, integrals.centroid, &axes, &shadows, plate, convex);
-        let (added_mass, added_mass_source) = Measured::new(surface, integrals, &axes, convex)
-            .added_mass(&proxy, |solid| match solid {
-                Solid::Cuboid { .. } => thickness(&proxy),
-                // Accuracy::Calibrated says why not.
-                _ => 0.0,
-            });
+        let (added_mass, added_mass_source) =
+            Measured::new(surface, integrals, &axes, convex).added_mass(&proxy, thickness(&proxy));
         let added_mass = added_mass
             .rotated(&axes)
             .about(reference - integrals.centroid);
@@ -243,7 +237,7 @@ impl HydroProperties {
         } else if let (true, Some(surface)) = (self.planform.fraction >= 1.0, self.hull.surface()) {
             let (integrals, axes) = (surface.volume_integrals(), &self.planform.axes);
             let measured = Measured::new(&surface, &integrals, axes, surface.is_convex());
-            let (added_mass, source) = measured.added_mass(&self.proxy, |_| 1.0);
+            let (added_mass, source) = measured.added_mass(&self.proxy, 1.0);
             if let AddedMassSource::Table { .. } = source {
                 let own = added_mass.rotated(axes);
                 self.added_mass = own.about(self.reference - self.centroid);

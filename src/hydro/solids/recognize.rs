@@ -62,19 +62,14 @@ impl Measured {
     }
 
     /// Its added mass per unit density about the centroid, along the principal axes, and where that is from: if it is a
-    /// tabulated solid, by a share from the table, and for the rest the proxy ellipsoid's.
-    pub fn added_mass(
-        &self,
-        proxy: &Ellipsoid,
-        share: impl Fn(&Solid) -> f64,
-    ) -> (AddedMass, AddedMassSource) {
+    /// tabulated solid, by a `share` from the table, and for the rest the proxy ellipsoid's.
+    pub fn added_mass(&self, proxy: &Ellipsoid, share: f64) -> (AddedMass, AddedMassSource) {
         let ellipsoid = proxy.added_mass();
         if self.is_ellipsoid() {
             return (ellipsoid, AddedMassSource::Ellipsoid);
         }
-        let found = self.solid().map(|placed| (placed, share(&placed.solid)));
-        match found {
-            Some((placed, share)) if share > 0.0 => {
+        match self.solid() {
+            Some(placed) if share > 0.0 => {
                 let solid = placed.solid;
                 let table = super::table::added_mass(&placed);
                 let mixed = table.scaled(share) + ellipsoid.scaled(1.0 - share);
