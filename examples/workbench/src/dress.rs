@@ -108,9 +108,9 @@ impl State {
             methods::wake(&kind, &settings)
         });
         let medium = settings.medium(wake).map_err(|error| error.to_string())?;
-        if settings.waves > 0.0 {
-            self.immersion.set_medium(medium);
-            return Ok(());
+        let waves = settings.surface().map_err(|error| error.to_string())?;
+        if let Some(waves) = waves {
+            self.immersion.set_surface(waves);
         }
         for (layer, velocity) in [settings.wind, settings.current].into_iter().enumerate() {
             if velocity != [0.0; 3] {

@@ -18,6 +18,8 @@ mod state;
 #[path = "../../support/mod.rs"]
 mod support;
 mod view;
+#[cfg(feature = "window")]
+pub mod window;
 
 pub use bench::{Bench, Command, LONGEST_FALL};
 pub use change::{Change, Placement, Rain, Setting};

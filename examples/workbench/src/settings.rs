@@ -181,19 +181,30 @@ impl Settings {
             water = water.with_flow(uniform(self.current));
         }
         let medium = Medium::layered(upper, water).with_level(Vector::Y * self.level as f32)?;
-        if self.waves == 0.0 {
-            return Ok(medium);
+        Ok(match self.surface()? {
+            Some(waves) => medium.with_surface(waves),
+            None => medium,
+        })
+    }
+
+    /// The waves of the pond, if it has some.
+    ///
+    /// # Errors
+    /// What cannot be.
+    pub fn surface(&self) -> Result<Option<Waves>, Error> {
+        if self.fluids != Fluids::Pond || self.waves == 0.0 {
+            return Ok(None);
         }
         let length = self.waves / STEEPNESS;
         let period = (TAU * length / crate::GRAVITY).sqrt();
-        let waves = Waves::sea(&Sea {
+        Waves::sea(&Sea {
             spectrum: WaveSpectrum::jonswap(self.waves, period, 3.3)?,
             direction: [0.9, 0.4],
             waves: WAVES,
             seed: SEED,
             ..Sea::default()
-        })?;
-        Ok(medium.with_surface(waves))
+        })
+        .map(Some)
     }
 
     /// Whether two settings have the same medium, but for what moves in it.

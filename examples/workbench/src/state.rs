@@ -1,7 +1,6 @@
 //! The world at one moment: what is in it, what moves it, and a step of it.
 
 use crate::change::{Change, Placement, Rain};
-use crate::history::History;
 use crate::kinds::{Shape, kind};
 use crate::methods::{self, Method};
 use crate::path::{self, Followed};
@@ -407,12 +406,7 @@ impl State {
         let wake = in_wake.then_some((first.0, first.1.to_bits()));
         let before = self.applied.replace((settings, wake));
         let all = before.is_none_or(|(before, _)| before != settings);
-        // Snapshots leave waves out, and a medium that is set anew rounds otherwise than one that stays: it is set anew
-        // after each of them, whether it is gone back to or not.
-        let (before, anew) = match before {
-            Some(_) if settings.waves > 0.0 && History::is_due(self.step) => (None, true),
-            before => (before, before != self.applied),
-        };
+        let anew = before != self.applied;
         if anew && let Err(problem) = self.apply_medium(before, wake) {
             self.notes.push(problem);
         }
