@@ -13,7 +13,7 @@ use clap::Parser;
 use rapier3d_immersed::rapier3d::math::Vector;
 use rapier3d_immersed::rapier3d::na::{Matrix3, Vector3};
 use rapier3d_immersed::rapier3d::parry::shape::{Capsule, Cone, Cuboid, Cylinder, Shape};
-use rapier3d_immersed::{AddedMass, Error};
+use rapier3d_immersed::{AddedMass, Error, Solid};
 use std::fmt::Write;
 use support::cli;
 use support::options::{Out, wrote};
@@ -33,76 +33,52 @@ struct Row {
     name: &'static str,
     /// Logarithms to base 2 of its first edge over the second and the second over the third; of height over diameter.
     ratios: [i32; 2],
+    solid: Solid,
     shape: Box<dyn Shape>,
-    volume: f64,
-    /// Volume times the mean squares of the distances from the planes through the centroid.
-    second_moment: Vector3<f64>,
-    /// From the shape's origin to its centroid, along its axis.
-    centroid: f64,
-    height: f64,
 }
 
-/// The rows: boxes to 64 : 1 and 4096 times as wide as thick, solids of revolution to 64 : 1 and 1 : 256.
+/// The rows: boxes to 64 : 1 and 4096 times as wide as thick, solids of revolution to 64 : 1 and 1 : 4096.
 fn rows() -> Vec<Row> {
     let power = |exponent: i32| 2.0_f64.powi(exponent);
-    let boxes = (0..=6)
-        .flat_map(|i| (0..=12).map(move |j| [i, j]))
-        .map(|ratios| {
-            let lengths = Vector3::new(power(ratios[0]), 1.0, power(-ratios[1]));
-            let half = lengths.map(|length| 0.5 * length as f32);
-            let volume = lengths.product();
-            Row {
-                name: "cuboid",
-                ratios,
-                shape: Box::new(Cuboid::new(Vector::new(half.x, half.y, half.z))),
-                volume,
-                second_moment: lengths.component_mul(&lengths) * (volume / 12.0),
-                centroid: 0.0,
-                height: lengths.x,
-            }
-        });
-    let pi = std::f64::consts::PI;
-    let round = |along: f64, across: f64| Vector3::new(along, across, across);
-    let cylinders = (-12..=6).map(|i| {
-        let h = power(i);
-        let volume = pi * 0.25 * h;
+    let boxes = (0..=6).flat_map(|i| (0..=12).map(move |j| [i, j]));
+    let boxes = boxes.map(|ratios| {
+        let lengths = Vector3::new(power(ratios[0]), 1.0, power(-ratios[1]));
+        let half = lengths.map(|length| 0.5 * length as f32);
         Row {
-            name: "cylinder",
-            ratios: [i, 0],
-            shape: Box::new(Cylinder::new(0.5 * h as f32, 0.5)),
-            volume,
-            second_moment: round(h * h / 12.0, 1.0 / 16.0) * volume,
-            centroid: 0.0,
-            height: h,
+            name: "cuboid",
+            ratios,
+            solid: Solid::Cuboid { lengths },
+            shape: Box::new(Cuboid::new(Vector::new(half.x, half.y, half.z))),
         }
     });
-    let cones = (-8..=6).map(|i| {
-        let h = power(i);
-        let volume = pi * h / 12.0;
-        Row {
-            name: "cone",
-            ratios: [i, 0],
-            shape: Box::new(Cone::new(0.5 * h as f32, 0.5)),
-            volume,
-            second_moment: round(h * h * 3.0 / 80.0, 3.0 / 80.0) * volume,
-            centroid: -0.25 * h,
-            height: h,
-        }
+    // Of a diameter of 1 m.
+    let radius = 0.5;
+    let cylinders = (-12..=6).map(|i| Row {
+        name: "cylinder",
+        ratios: [i, 0],
+        solid: Solid::Cylinder {
+            radius,
+            height: power(i),
+        },
+        shape: Box::new(Cylinder::new(0.5 * power(i) as f32, 0.5)),
     });
-    let capsules = (0..=6).map(|i| {
-        let length = power(i);
-        let half = 0.5 * (length - 1.0);
-        let (tube, ball) = (pi * 0.5 * half, pi / 6.0);
-        let along = tube * half * half / 3.0 + ball * (0.05 + half * half + 0.375 * half);
-        Row {
-            name: "capsule",
-            ratios: [i, 0],
-            shape: Box::new(Capsule::new_y(half as f32, 0.5)),
-            volume: tube + ball,
-            second_moment: round(along, tube / 16.0 + ball * 0.05),
-            centroid: 0.0,
-            height: length,
-        }
+    let cones = (-8..=6).map(|i| Row {
+        name: "cone",
+        ratios: [i, 0],
+        solid: Solid::Cone {
+            radius,
+            height: power(i),
+        },
+        shape: Box::new(Cone::new(0.5 * power(i) as f32, 0.5)),
+    });
+    let capsules = (0..=6).map(|i| Row {
+        name: "capsule",
+        ratios: [i, 0],
+        solid: Solid::Capsule {
+            radius,
+            length: power(i),
+        },
+        shape: Box::new(Capsule::new_y(0.5 * (power(i) - 1.0) as f32, 0.5)),
     });
     boxes
         .chain(cylinders)
@@ -125,8 +101,13 @@ fn edgewise(at_thinnest: f64, exponent: i32) -> f64 {
 /// The seven numbers of a solid, and the error that the solver estimates.
 fn solved(row: &Row) -> Result<([f64; 7], f64), Error> {
     let (own, report) = AddedMass::of_shape(row.shape.as_ref(), Vector::ZERO, TOLERANCE)?;
-    // Rapier's axis of revolution is y; a box's first edge is x.
+    // Rapier's axis of revolution is y; a box's first edge is x. A cone's centroid is a quarter of its height from its
+    // base, and rapier's origin half of it.
     let round = row.name != "cuboid";
+    let centroid = match row.solid {
+        Solid::Cone { height, .. } => -0.25 * height,
+        _ => 0.0,
+    };
     let added = if round {
         let cycle = Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
         let turned = |m: Matrix3<f64>| cycle * m * cycle.transpose();
@@ -135,12 +116,12 @@ fn solved(row: &Row) -> Result<([f64; 7], f64), Error> {
             coupling: turned(own.coupling),
             angular: turned(own.angular),
         }
-        .about(Vector3::new(row.centroid, 0.0, 0.0))
+        .about(Vector3::x() * centroid)
     } else {
         own
     };
-    let linear = added.linear.diagonal() / row.volume;
-    let m = &row.second_moment;
+    let (volume, m) = (row.solid.volume(), row.solid.second_moment());
+    let linear = added.linear.diagonal() / volume;
     let displaced = Vector3::new(m.y + m.z, m.z + m.x, m.x + m.y);
     let mut angular = added.angular.diagonal().component_div(&displaced);
     let (mut linear, mut coupling) = (linear, 0.0);
@@ -154,9 +135,9 @@ fn solved(row: &Row) -> Result<([f64; 7], f64), Error> {
         let across = 0.5 * (angular.y + angular.z);
         angular = Vector3::new(0.0, across, across);
     }
-    if row.name == "cone" {
-        coupling =
-            0.5 * (added.coupling[(1, 2)] - added.coupling[(2, 1)]) / (row.volume * row.height);
+    if let Solid::Cone { height, .. } = row.solid {
+        let both = added.coupling[(1, 2)] - added.coupling[(2, 1)];
+        coupling = 0.5 * both / (volume * height);
     }
     let numbers = [
         linear.x, linear.y, linear.z, angular.x, angular.y, angular.z, coupling,

@@ -229,6 +229,11 @@ impl Medium {
         &*self.surface
     }
 
+    /// Sets the surface between the first two.
+    pub(crate) fn set_surface(&mut self, surface: Arc<dyn FreeSurface>) {
+        self.surface = surface;
+    }
+
     /// Direction up, of length 1.
     pub fn up(&self) -> Vector {
         self.up

@@ -1,9 +1,9 @@
 //! What a rapier body is made of, as it was last seen: rapier tells nobody which bodies a user has changed.
 
+use crate::geometry::equal_shapes;
 use rapier3d::dynamics::{MassProperties, RigidBody, RigidBodyAdditionalMassProps};
 use rapier3d::geometry::{Collider, ColliderHandle, ColliderSet, SharedShape};
 use rapier3d::math::{Pose, Real, Vector};
-use rapier3d::parry::shape::{Shape, TypedShape};
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
@@ -143,17 +143,26 @@ impl KeptCollider {
         self.mass == other.mass
             && self.enabled == other.enabled
             && self.pose == other.pose
-            && (self.shape.as_ref().zip(other.shape.as_ref()))
-                .is_some_and(|(a, b)| Arc::ptr_eq(&a.0, &b.0) || are_equal(&**a, &**b))
+            && (self.shape.as_deref().zip(other.shape.as_deref()))
+                .is_some_and(|(a, b)| equal_shapes(a, b))
     }
 
-    /// The same after loading: the shape is held from now on if it is the one that was kept.
+    /// The same where the shape may have another address, because it or this was loaded: it is held from now on if it is the
+    /// one that was kept.
     pub fn is_loaded(&mut self, handle: ColliderHandle, collider: &Collider) -> bool {
-        #[cfg(feature = "serde-serialize")]
-        if self.shape.is_none() && shape_mark(collider) == self.shape_mark {
+        if self.has_shape_of(collider) {
             self.shape = Some(collider.shared_shape().clone());
         }
         self.is(handle, collider)
+    }
+
+    fn has_shape_of(&self, collider: &Collider) -> bool {
+        #[cfg(feature = "serde-serialize")]
+        if self.shape.is_none() {
+            return shape_mark(collider) == self.shape_mark;
+        }
+        let shape = self.shape.as_deref();
+        shape.is_some_and(|shape| equal_shapes(shape, collider.shape()))
     }
 }
 
@@ -163,21 +172,6 @@ pub(super) fn same(a: &Vector, b: &Vector) -> bool {
     a.x.to_bits() == b.x.to_bits()
         && a.y.to_bits() == b.y.to_bits()
         && a.z.to_bits() == b.z.to_bits()
-}
-
-/// Whether two shapes are equal, as far as that can be told at a glance.
-fn are_equal(a: &dyn Shape, b: &dyn Shape) -> bool {
-    match (a.as_typed_shape(), b.as_typed_shape()) {
-        (TypedShape::Ball(a), TypedShape::Ball(b)) => a.radius == b.radius,
-        (TypedShape::Cuboid(a), TypedShape::Cuboid(b)) => a.half_extents == b.half_extents,
-        (TypedShape::Cylinder(a), TypedShape::Cylinder(b)) => {
-            (a.half_height, a.radius) == (b.half_height, b.radius)
-        }
-        (TypedShape::Cone(a), TypedShape::Cone(b)) => {
-            (a.half_height, a.radius) == (b.half_height, b.radius)
-        }
-        _ => false,
-    }
 }
 
 fn pose_of(collider: &Collider) -> Pose {

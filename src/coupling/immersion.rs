@@ -2,31 +2,20 @@
 
 use super::admission::{self, Admission};
 use super::body_look::BodyChanges;
-use super::control::{OnContact, SeriesTable};
+use super::control::SeriesTable;
 use super::environment::Environment;
-use super::impulse;
 use super::rapier_sets::RapierSets;
-use super::readout;
 use super::registry::Registry;
 use super::shared_constants::ConstantsTable;
 use super::step::driver::{self, StepParts};
 use super::step::workspace::Workspace;
-use super::surface_readout::AmongLayers;
 use super::warning::{Warning, Warnings};
-use crate::body::{DryMass, ImmersedBody};
-use crate::dynamics::{ForceBreakdown, Hydrostatics, Integrator};
-use crate::flow::Flow;
-use crate::fluid::Fluid;
-use crate::hydro::viscous::ForceFactors;
-use crate::medium::{Layer, Medium};
-use crate::motion::ControlSeries;
-use crate::turbulence::TurbulentLayer;
+use crate::body::ImmersedBody;
+use crate::dynamics::Integrator;
+use crate::medium::Medium;
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::ColliderSet;
-use rapier3d::math::Vector;
-use rapier3d::na::Matrix6;
 use rapier3d::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
-use std::sync::Arc;
 
 /// Bodies of a rapier world that are immersed in one fluid.
 ///
@@ -99,7 +88,7 @@ use std::sync::Arc;
 /// ```
 ///
 /// # Snapshots
-/// With the feature `serde-serialize` a snapshot holds all but flow and turbulence, which are set again.
+/// With the feature `serde-serialize` a snapshot holds all but flow, turbulence and surface, which are set again.
 /// Together with one of the rapier world it goes on bit by bit. Loading refuses other versions and what
 /// cannot be; saving fails between `before_step` and `after_step`.
 #[derive(Clone)]
@@ -270,66 +259,8 @@ impl Immersion {
         }
     }
 
-    /// The fluid; of several layers the uppermost.
-    pub fn fluid(&self) -> &Fluid {
-        &self.environment.medium.layers()[0].fluid
-    }
-
-    /// What the bodies are in.
-    pub fn medium(&self) -> &Medium {
-        &self.environment.medium
-    }
-
-    /// Puts all bodies into another fluid, from the next step on, with the flow and turbulence that there are; of
-    /// several layers those of the uppermost. Bodies go on with the velocities that they have, and
-    /// sleeping ones wake. [`Immersion::forces`] are those in the new fluid at once.
-    pub fn set_fluid(&mut self, fluid: Fluid) {
-        let uppermost = self.environment.medium.layers()[0].clone();
-        self.set_medium(Layer { fluid, ..uppermost });
-    }
-
-    /// Puts all bodies into another medium, with its flows and its turbulence, from the next step on; the rest as
-    /// [`Immersion::set_fluid`].
-    pub fn set_medium(&mut self, medium: impl Into<Medium>) {
-        self.environment.set_medium(medium.into());
-        self.warn_of_medium();
-        self.constants.clear();
-        self.registry.forget_constants();
-        // What cannot be immersed is refused, and reported, with the next step.
-        let _ =
-            admission::renew_constants(&mut self.registry, &mut self.constants, &self.environment);
-    }
-
-    /// Sets the velocity field of the fluid; of several layers that of the uppermost: the wind.
-    ///
-    /// ```
-    /// use rapier3d_immersed::flow::Uniform;
-    /// use rapier3d_immersed::{Fluid, Immersion};
-    ///
-    /// let mut immersion = Immersion::new(Fluid::AIR);
-    /// immersion.set_flow(Uniform::new(2.0, 0.0, 0.0)); // a breeze along +x
-    /// ```
-    pub fn set_flow(&mut self, flow: impl Flow + 'static) {
-        self.set_flow_of(0, flow);
-    }
-
-    /// Sets the velocity field of one layer of the medium, counted from the uppermost: that of layer 1 is the current
-    /// of the water under air. A layer that the medium has not is no error.
-    pub fn set_flow_of(&mut self, layer: usize, flow: impl Flow + 'static) {
-        self.environment.set_flow(layer, Arc::new(flow));
-    }
-
-    /// Lets all fluids rest, but for their turbulence and the waves: the same as a flow that is zero everywhere.
-    pub fn clear_flow(&mut self) {
-        for layer in 0..self.environment.medium.layers().len() {
-            if self.environment.medium.layers()[layer].flow.is_some() {
-                self.environment.come_to_rest(layer);
-            }
-        }
-    }
-
     /// Warns of a medium that would not stay as it is.
-    fn warn_of_medium(&mut self) {
+    pub(super) fn warn_of_medium(&mut self) {
         let fluids: Vec<_> = self.environment.medium.fluids().copied().collect();
         for (above, pair) in fluids.windows(2).enumerate() {
             let [over, under] = [pair[0].density(), pair[1].density()];
@@ -339,48 +270,6 @@ impl Immersion {
                     density: under,
                     above: over,
                 });
-            }
-        }
-    }
-
-    /// Adds turbulence to the mean flow; of several layers to that of the uppermost. Its fluctuations differ from body to
-    /// body.
-    ///
-    /// A [`Turbulence`](crate::turbulence::Turbulence) acts as the fluctuating velocity of the fluid
-    /// that a body sees, with seed 0; [`TurbulentLayer`] chooses otherwise.
-    ///
-    /// ```
-    /// use rapier3d_immersed::turbulence::{Turbulence, TurbulenceState};
-    /// use rapier3d_immersed::{Fluid, Immersion};
-    ///
-    /// let mut immersion = Immersion::new(Fluid::AIR);
-    /// immersion.set_turbulence(Turbulence::Homogeneous(TurbulenceState {
-    ///     kinetic_energy: 0.1, // m²/s²
-    ///     dissipation: 0.05,   // m²/s³
-    /// }));
-    /// ```
-    pub fn set_turbulence(&mut self, turbulence: impl Into<TurbulentLayer>) {
-        self.set_turbulence_of(0, turbulence);
-    }
-
-    /// Adds turbulence to the flow of one layer of the medium, counted from the uppermost. A layer that the medium has
-    /// not is no error.
-    pub fn set_turbulence_of(&mut self, layer: usize, turbulence: impl Into<TurbulentLayer>) {
-        if let Some(own) = self.environment.medium.layers_mut().get_mut(layer) {
-            own.turbulence = Some(turbulence.into());
-        }
-    }
-
-    /// Ends the turbulence of all layers.
-    pub fn clear_turbulence(&mut self) {
-        for state in self.registry.iter_mut() {
-            state.flight.turbulence = Default::default();
-        }
-        for layer in 0..self.environment.medium.layers().len() {
-            let own = &mut self.environment.medium.layers_mut()[layer];
-            let ended = own.turbulence.take().is_some();
-            if own.flow.is_none() && ended {
-                self.environment.come_to_rest(layer);
             }
         }
     }
@@ -526,230 +415,5 @@ impl Immersion {
             registry: &mut self.registry,
             workspace: &mut self.workspace,
         }
-    }
-
-    /// The forces on a body in the state that it has now, or `None` if it is not immersed (yet: a
-    /// body enters the fluid with the first step after its insertion). Gravity is that of the last
-    /// step.
-    ///
-    /// ```
-    /// use rapier3d_immersed::rapier3d::prelude::*;
-    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
-    ///
-    /// let mut world = PhysicsWorld::new();
-    /// let (ball, _) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::ball(0.1));
-    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, ball)?;
-    /// let mut immersion = Immersion::new(Fluid::WATER);
-    /// immersion.insert(ball, hydro);
-    /// immersion.step(&mut world);
-    /// let forces = immersion.forces(&world.bodies, ball).unwrap();
-    /// assert!((forces.buoyancy.force.y - 997.0 * 0.004189 * 9.81).abs() < 0.2); // ρVg, N
-    /// # Ok::<(), rapier3d_immersed::Error>(())
-    /// ```
-    pub fn forces(&self, bodies: &RigidBodySet, handle: RigidBodyHandle) -> Option<ForceBreakdown> {
-        let state = self.registry.get(handle)?;
-        let body = bodies.get(handle)?;
-        readout::forces(state, &self.constants, &self.environment, body, None)
-    }
-
-    /// How a body lies in the free surface of the medium, as it is now; `None` if it is not immersed (yet), or in a single
-    /// fluid.
-    ///
-    /// ```
-    /// use rapier3d_immersed::rapier3d::prelude::*;
-    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion, Medium};
-    ///
-    /// let mut world = PhysicsWorld::new();
-    /// let raft = ColliderBuilder::cuboid(1.0, 0.1, 0.5).density(500.0);
-    /// let (raft, _) = world.insert(RigidBodyBuilder::dynamic(), raft);
-    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, raft)?;
-    /// let mut immersion = Immersion::new(Medium::layered(Fluid::AIR, Fluid::WATER));
-    /// immersion.insert(raft, hydro);
-    /// immersion.step(&mut world);
-    /// let floats = immersion.hydrostatics(&world.bodies, raft).unwrap();
-    /// assert!((floats.submerged_share - 0.5).abs() < 0.01);
-    /// assert!((floats.waterplane_area - 2.0).abs() < 1e-4); // m²
-    /// // BM = I/V of the waterplane, a rectangle of 2 m × 1 m, about its long axis.
-    /// assert!((floats.metacentric_radii[0] - 2.0 / 12.0 / floats.submerged_volume).abs() < 1e-4);
-    /// # Ok::<(), rapier3d_immersed::Error>(())
-    /// ```
-    pub fn hydrostatics(
-        &self,
-        bodies: &RigidBodySet,
-        handle: RigidBodyHandle,
-    ) -> Option<Hydrostatics> {
-        let state = self.registry.get(handle)?;
-        let body = bodies.get(handle)?;
-        let among = AmongLayers::of(state, &self.constants, &self.environment, body)?;
-        Some(among.hydrostatics())
-    }
-
-    /// The mass, center of mass and inertia of a body itself, without any fluid, as its user means them; `None`
-    /// if it is not in the fluid (yet: a body enters with the first step after its insertion). A change is in
-    /// them after the next step. Rapier's own `body.mass()` is what the solver uses meanwhile: see
-    /// [`Immersion`].
-    ///
-    /// ```
-    /// use rapier3d_immersed::rapier3d::prelude::*;
-    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
-    ///
-    /// let mut world = PhysicsWorld::new();
-    /// let (ball, _) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::ball(0.1).mass(2.0));
-    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, ball)?;
-    /// let mut immersion = Immersion::new(Fluid::WATER);
-    /// immersion.insert(ball, hydro);
-    /// immersion.step(&mut world);
-    /// world.bodies[ball].set_additional_mass(0.5, true); // ballast
-    /// immersion.step(&mut world);
-    /// assert!((immersion.mass_of(ball).unwrap().mass - 2.5).abs() < 1e-6);
-    /// # Ok::<(), rapier3d_immersed::Error>(())
-    /// ```
-    pub fn mass_of(&self, handle: RigidBodyHandle) -> Option<DryMass> {
-        Some(self.registry.get(handle)?.saved.as_ref()?.dry)
-    }
-
-    /// The 6×6 mass 𝕄 of a body with the fluid that it drags along: `𝕄 (v, ω)` is the momentum, N·s, and
-    /// angular momentum, N·m·s, about the center of mass that it takes to move body and fluid at v, m/s, and
-    /// ω, rad/s. Axes of the body's frame. A body that the boundary of two fluids cuts drags along what it did in the
-    /// last step. `None` if the body is not in the fluid (yet).
-    pub fn mass_matrix_of(&self, handle: RigidBodyHandle) -> Option<Matrix6<f64>> {
-        let state = self.registry.get(handle)?;
-        state.saved.as_ref()?;
-        let shared = self.constants.get(state.constants)?;
-        Some(state.mass_matrix(shared))
-    }
-
-    /// Pushes a body at its center of mass with an impulse in N·s, world axes, that moves the fluid around it,
-    /// too: its velocities change at once by `𝕄⁻¹ (J, 0)`, 𝕄 being [`Immersion::mass_matrix_of`]. Rapier's own
-    /// `apply_impulse` pushes a body as if there were no fluid, by J/m: a plate that is pushed broadside on in
-    /// water then gets many times the velocity that the impulse is good for.
-    ///
-    /// For a wanted change of velocity Δv the impulse is `𝕄 (Δv, 0)`, or `m·Δv` with m =
-    /// [`DryMass::mass`] plus the added mass along Δv. Locked axes keep their velocity. A body that is not in
-    /// the fluid gets rapier's impulse. Wakes the body. A link of a multibody does not feel it, as it does not
-    /// feel rapier's: rapier moves it by its multibody's generalized velocities alone. Push links by forces.
-    ///
-    /// ```
-    /// use rapier3d_immersed::rapier3d::prelude::*;
-    /// use rapier3d_immersed::{Fluid, HydroProperties, Immersion};
-    ///
-    /// let mut world = PhysicsWorld::new();
-    /// let (ball, _) = world.insert(RigidBodyBuilder::dynamic(), ColliderBuilder::ball(0.1).density(997.0));
-    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, ball)?;
-    /// let mut immersion = Immersion::new(Fluid::WATER);
-    /// immersion.insert(ball, hydro);
-    /// immersion.step(&mut world);
-    ///
-    /// let before = world.bodies[ball].linvel();
-    /// let impulse = Vector::X * immersion.mass_of(ball).unwrap().mass as f32;
-    /// immersion.apply_impulse(&mut world.bodies, ball, impulse);
-    /// // A ball drags half of the water that it displaces along: m·(1 m/s) makes two thirds of 1 m/s.
-    /// let change = world.bodies[ball].linvel() - before;
-    /// assert!((change.x - 2.0 / 3.0).abs() < 1e-3);
-    /// # Ok::<(), rapier3d_immersed::Error>(())
-    /// ```
-    pub fn apply_impulse(
-        &mut self,
-        bodies: &mut RigidBodySet,
-        handle: RigidBodyHandle,
-        impulse: Vector,
-    ) {
-        if let Some(body) = bodies.get(handle) {
-            let center = body.center_of_mass();
-            self.apply_impulse_at_point(bodies, handle, impulse, center);
-        }
-    }
-
-    /// The same at a point, m, world axes: velocities change by `𝕄⁻¹ (J, r × J)`, r being the lever from the
-    /// center of mass.
-    pub fn apply_impulse_at_point(
-        &mut self,
-        bodies: &mut RigidBodySet,
-        handle: RigidBodyHandle,
-        impulse: Vector,
-        point: Vector,
-    ) {
-        let Some(body) = bodies.get_mut(handle) else {
-            return;
-        };
-        let state = self.registry.get(handle);
-        let immersed = state.filter(|state| state.saved.is_some() && body.is_dynamic());
-        let Some(shared) = immersed.and_then(|state| self.constants.get(state.constants)) else {
-            body.apply_impulse_at_point(impulse, point, true);
-            return;
-        };
-        let lever = point - body.center_of_mass();
-        let mass = state.map_or_else(|| shared.mass_matrix(), |state| state.mass_matrix(shared));
-        if let Some((linear, angular)) = impulse::velocity_change(&mass, body, impulse, lever) {
-            body.set_linvel(body.linvel() + linear, true);
-            body.set_angvel(body.angvel() + angular, true);
-            // One that slept is not listed as active before rapier's next step.
-            self.registry.newcomers.push(handle);
-        }
-    }
-
-    /// Multiplies the forces of a body's law, from the next step on (default 1): the control parameters c̃
-    /// of the pattern-driven method, as [`FreeBody::control`](crate::FreeBody::control). A series that the
-    /// body replays is stopped.
-    ///
-    /// Unknown handles, and factors that [`ForceFactors::check`] refuses, are ignored.
-    ///
-    /// ```
-    /// use rapier3d_immersed::rapier3d::prelude::*;
-    /// use rapier3d_immersed::{Fluid, ForceFactors, HydroProperties, Immersion};
-    ///
-    /// let mut world = PhysicsWorld::new();
-    /// let leaf = ColliderBuilder::cuboid(0.0365, 0.00015, 0.021).density(300.0);
-    /// let (leaf, _) = world.insert(RigidBodyBuilder::dynamic(), leaf);
-    /// let hydro = HydroProperties::from_body(&world.bodies, &world.colliders, leaf)?;
-    /// let mut immersion = Immersion::new(Fluid::AIR);
-    /// immersion.insert(leaf, hydro);
-    /// immersion.set_control(leaf, ForceFactors { drag: 3.0, ..ForceFactors::ONE });
-    /// assert_eq!(immersion.control(leaf).unwrap().drag, 3.0);
-    /// # Ok::<(), rapier3d_immersed::Error>(())
-    /// ```
-    pub fn set_control(&mut self, handle: RigidBodyHandle, factors: ForceFactors) {
-        if let Some(state) = self.registry.get_mut(handle) {
-            state.control.set(factors);
-        }
-    }
-
-    /// The factors on the forces of a body's law: those that were set or, during a replay, those of the last
-    /// step.
-    pub fn control(&self, handle: RigidBodyHandle) -> Option<ForceFactors> {
-        self.registry.get(handle).map(|state| state.control.factors)
-    }
-
-    /// Lets a body replay a series from its beginning, at the next step; after its last entry that one
-    /// stays. The body must be what the series was planned for: [`Immersion::replay_planned`] checks that. A body that is held by a joint or has locked axes counts
-    /// as touching: under [`OnContact::Restart`] its series begins when it is free, under [`OnContact::Stop`]
-    /// it ends at once. Unknown handles are ignored.
-    pub fn replay(
-        &mut self,
-        handle: RigidBodyHandle,
-        series: &ControlSeries,
-        on_contact: OnContact,
-    ) {
-        let Some(index) = self.registry.index(handle) else {
-            return;
-        };
-        let states = self.registry.states().iter().flatten();
-        let used = || states.filter_map(|state| state.control.series());
-        let series = self.series.intern(series.clone(), used);
-        if let Some(state) = self.registry.at_mut(index) {
-            state.control.replay(series, on_contact);
-        }
-    }
-
-    /// Stops the series that a body replays: it goes on under its own law. Nothing to stop is no error.
-    pub fn stop_replay(&mut self, handle: RigidBodyHandle) {
-        if let Some(state) = self.registry.get_mut(handle) {
-            state.control.stop();
-        }
-    }
-
-    /// How far a body has come in the series that it replays, s; `None` if it replays none.
-    pub fn replay_time(&self, handle: RigidBodyHandle) -> Option<f64> {
-        self.registry.get(handle)?.control.time()
     }
 }

@@ -7,6 +7,7 @@
 //!     ├──► admission ──► saved_properties, body_look    bodies enter and leave the fluid
 //!     ├──► body_changes                                 what users change of a body in the fluid
 //!     ├──► readout, impulse                             forces on one body; pushes at body and fluid
+//!     ├──► fluids, replay                               the fluid, and factors on forces, as users set them
 //!     ├──► parts ──► equipment                          parts, thrusters and volume, set in flight
 //!     ├──► rapier_sets, warning, snapshot               what users hand in, are told, and may save
 //!     └──► step::driver                                 prepare → sample → integrate → write back
@@ -21,6 +22,7 @@ mod control;
 mod crossing_memory;
 mod environment;
 mod equipment;
+mod fluids;
 mod immersion;
 mod impulse;
 mod parts;
@@ -28,7 +30,7 @@ mod principal_mass;
 mod rapier_sets;
 mod readout;
 mod registry;
-mod replay_planned;
+mod replay;
 mod saved_properties;
 mod shared_constants;
 #[cfg(feature = "serde-serialize")]

@@ -9,6 +9,7 @@ pub(crate) mod bands;
 #[cfg_attr(not(feature = "bake"), allow(dead_code))]
 pub(crate) mod bisect;
 mod ellipsoid;
+mod equal_shapes;
 mod graded;
 mod panels;
 pub(crate) mod quality;
@@ -21,6 +22,7 @@ mod tessellate;
 mod voxels;
 
 pub use ellipsoid::Ellipsoid;
+pub(crate) use equal_shapes::equal_shapes;
 pub(crate) use quality::check_indices;
 pub(crate) use relief::Relief;
 pub use sheet::Sheet;

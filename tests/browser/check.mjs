@@ -5,13 +5,12 @@
 // Exit code 0: everything is as it should be, or there is no Chromium (and a line says so).
 
 import assert from "node:assert/strict";
-import { resolve } from "node:path";
-import { pathToFileURL } from "node:url";
-import { pause, withTab } from "./chromium.mjs";
+import { firstFrames, pause, withTab } from "./chromium.mjs";
 
 const [page, folder] = process.argv.slice(2);
 
-await withTab(folder, async ({ send, evaluate, screenshot, size, complaints }) => {
+await withTab(folder, async tab => {
+  const { send, evaluate, screenshot, size, complaints } = tab;
   const mouse = (type, [x, y], more = {}) => send("Input.dispatchMouseEvent", { type, x, y, ...more });
   async function click(at) {
     for (const type of ["mousePressed", "mouseReleased"]) await mouse(type, at, { button: "left", clickCount: 1 });
@@ -23,20 +22,7 @@ await withTab(folder, async ({ send, evaluate, screenshot, size, complaints }) =
   const eye = () => evaluate("viewer.cameraOf(viewer.rects()[0]).eye");
 
   await size(1280, 720);
-  const first = [];
-  // The least of three: whatever else the machine does at the time is not the page's.
-  for (let load = 0; load < 3; load++) {
-    await send("Page.navigate", { url: "about:blank" });
-    await send("Page.navigate", { url: pathToFileURL(resolve(page)).href });
-    let time = null;
-    for (let tries = 0; tries < 400 && time === null && complaints.length === 0; tries++) {
-      await pause(50);
-      time = await evaluate("window.viewer?.firstFrame ?? null");
-    }
-    assert.deepEqual(complaints, []);
-    assert.notEqual(time, null, "a frame is drawn");
-    first.push(time);
-  }
+  const first = await firstFrames(tab, page, "viewer");
   const bodies = await evaluate("viewer.header.bodies.length");
   const times = first.map(time => time.toFixed(0)).join(", ");
   console.log(`${bodies} bodies, ${await evaluate("viewer.runs.length")} runs: first frame after ${times} ms`);

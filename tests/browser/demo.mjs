@@ -6,32 +6,18 @@
 // Exit code 0: everything is as it should be, or there is no Chromium (and a line says so).
 
 import assert from "node:assert/strict";
-import { resolve } from "node:path";
-import { pathToFileURL } from "node:url";
-import { pause, withTab } from "./chromium.mjs";
+import { firstFrames, pause, withTab } from "./chromium.mjs";
 
 const [page, hash, folder] = process.argv.slice(2);
 
-await withTab(folder, async ({ send, evaluate, screenshot, size, complaints }) => {
+await withTab(folder, async tab => {
+  const { send, evaluate, screenshot, size, complaints } = tab;
   const mouse = (type, [x, y], more = {}) => send("Input.dispatchMouseEvent", { type, x, y, ...more });
   const heights = () => evaluate("Array.from(new Float32Array(demo.physics.memory.buffer, demo.physics.poses(), 7 * 1000)).filter((_, i) => i % 7 === 1 && _ > -1)");
   const mean = numbers => numbers.reduce((sum, x) => sum + x, 0) / numbers.length;
 
   await size(1280, 720);
-  const first = [];
-  // The least of three: whatever else the machine does at the time is not the page's.
-  for (let load = 0; load < 3; load++) {
-    await send("Page.navigate", { url: "about:blank" });
-    await send("Page.navigate", { url: pathToFileURL(resolve(page)).href });
-    let time = null;
-    for (let tries = 0; tries < 400 && time === null && complaints.length === 0; tries++) {
-      await pause(50);
-      time = await evaluate("window.demo?.firstFrame ?? null");
-    }
-    assert.deepEqual(complaints, []);
-    assert.notEqual(time, null, "a frame is drawn");
-    first.push(time);
-  }
+  const first = await firstFrames(tab, page, "demo");
   console.log(`first frame after ${first.map(time => time.toFixed(0)).join(", ")} ms`);
   // The module is compiled first: half a second on an idle machine, more where others compile, too.
   assert(Math.min(...first) < 5000, "the first frame takes less than 5 s");

@@ -135,9 +135,18 @@ fn a_restored_snapshot_goes_on_alike() {
     let snapshot = postcard::to_stdvec(&(&world, &immersion)).unwrap();
     let (mut other, mut restored): (PhysicsWorld, Immersion) =
         postcard::from_bytes(&snapshot).unwrap();
+    // A copy beside a world that was read is as good.
+    let (mut third, mut copy): (PhysicsWorld, Immersion) = (
+        postcard::from_bytes::<(PhysicsWorld, Immersion)>(&snapshot)
+            .unwrap()
+            .0,
+        immersion.clone(),
+    );
     for _ in 0..60 {
         immersion.step(&mut world);
         restored.step(&mut other);
+        copy.step(&mut third);
     }
     assert_eq!(bits(&world, &handles), bits(&other, &handles));
+    assert_eq!(bits(&world, &handles), bits(&third, &handles));
 }

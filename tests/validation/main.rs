@@ -14,6 +14,7 @@ mod fuzz;
 mod held;
 mod hull;
 mod impact;
+mod impulses;
 mod induced_drag;
 mod kirchhoff;
 mod lifecycle;
@@ -31,7 +32,6 @@ mod shapes;
 mod sleepers;
 mod sphere;
 mod static_polars;
-
 mod support;
 mod surface;
 mod thesis_law;

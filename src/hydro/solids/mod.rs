@@ -49,6 +49,23 @@ pub enum Solid {
     },
 }
 
+/// A solid, and how it lies in the principal axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Placed {
+    solid: Solid,
+    /// Which principal axis is its first: that of revolution.
+    axis: usize,
+    /// −1 if the apex of a cone is toward the negative end of that axis.
+    sign: f64,
+}
+
+impl Placed {
+    /// What a body of revolution has along its first axis and across, along the principal axes.
+    fn along(&self, own: Vector3<f64>) -> Vector3<f64> {
+        Vector3::from_fn(|i, _| own[(i + 3 - self.axis) % 3])
+    }
+}
+
 impl Solid {
     /// Displaced volume, m³.
     pub fn volume(&self) -> f64 {
@@ -70,9 +87,9 @@ impl Solid {
         }
     }
 
-    /// Volume times the mean squares of the distances from the planes through the centroid, m⁵: the axis of revolution
-    /// or the first edge, then the other two.
-    fn second_moment(&self) -> Vector3<f64> {
+    /// `∫ x² dV` from the centroid, m⁵, of the coordinates along the axis of revolution or the first edge, then the other
+    /// two.
+    pub fn second_moment(&self) -> Vector3<f64> {
         let volume = self.volume();
         let squares = match *self {
             Self::Cuboid { lengths } => lengths.component_mul(&lengths) / 12.0,
@@ -182,6 +199,54 @@ mod tests {
                 let off = (linear - own.linear.diagonal()).amax() / own.linear.amax();
                 let spin = (angular - own.angular.diagonal()).amax() / own.angular.amax();
                 assert!(off < 5e-3 && spin < 1e-2, "{name}: {off} {spin}");
+            }
+        }
+    }
+
+    /// Volume, area and second moments in closed form are those of the surfaces, but for their facets.
+    #[test]
+    fn closed_forms_are_those_of_the_surfaces() {
+        let (radius, height, length) = (0.3, 0.5, 0.9);
+        let lengths = Vector3::new(0.5, 0.3, 0.4);
+        let shapes: [(Solid, Box<dyn Shape>); 4] = [
+            (
+                Solid::Cuboid { lengths },
+                Box::new(Cuboid::new(Vector::new(0.25, 0.15, 0.2))),
+            ),
+            (
+                Solid::Cylinder { radius, height },
+                Box::new(Cylinder::new(0.25, 0.3)),
+            ),
+            (
+                Solid::Cone { radius, height },
+                Box::new(Cone::new(0.25, 0.3)),
+            ),
+            (
+                Solid::Capsule { radius, length },
+                Box::new(Capsule::new_y(0.15, 0.3)),
+            ),
+        ];
+        for (solid, shape) in shapes {
+            let (surface, round) = (
+                surface(shape.as_ref()),
+                !matches!(solid, Solid::Cuboid { .. }),
+            );
+            let integrals = surface.volume_integrals();
+            let area: f64 = surface
+                .corners()
+                .map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm())
+                .sum();
+            let near = |ours: f64, right: f64| {
+                assert!(
+                    (ours / right - 1.0).abs() < 2e-3,
+                    "{solid:?}: {ours} for {right}"
+                );
+            };
+            near(solid.volume(), integrals.volume);
+            near(solid.area(), area);
+            let axes = if round { [1, 2, 0] } else { [0, 1, 2] };
+            for (ours, axis) in solid.second_moment().iter().zip(axes) {
+                near(*ours, integrals.second_moment[(axis, axis)]);
             }
         }
     }

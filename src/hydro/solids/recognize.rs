@@ -1,6 +1,6 @@
 //! Which solid a surface is.
 
-use super::Solid;
+use super::{Placed, Solid};
 use crate::geometry::{Ellipsoid, Surface, VolumeIntegrals};
 use crate::hydro::{AddedMass, AddedMassSource};
 use rapier3d::na::{Rotation3, Vector3};
@@ -21,16 +21,6 @@ pub(in crate::hydro) struct Measured {
     second_moment: Vector3<f64>,
     /// Farthest points from the centroid toward either end of each axis, m, both positive.
     reach: [Vector3<f64>; 2],
-}
-
-/// A solid, and how it lies in the principal axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Placed {
-    pub solid: Solid,
-    /// Which principal axis is its first: that of revolution.
-    pub axis: usize,
-    /// −1 if the apex of a cone is toward the negative end of that axis.
-    pub sign: f64,
 }
 
 impl Measured {
@@ -185,12 +175,5 @@ impl Measured {
             let reach = self.reach.map(|reach| 2.0 * reach[i] / lengths[i]);
             self.convex && degenerate || reach.iter().all(|reach| (reach - 1.0).abs() <= ALIKE)
         })
-    }
-}
-
-impl Placed {
-    /// What a body of revolution has along its first axis and across, along the principal axes.
-    pub fn along(&self, own: Vector3<f64>) -> Vector3<f64> {
-        Vector3::from_fn(|i, _| own[(i + 3 - self.axis) % 3])
     }
 }

@@ -4,8 +4,7 @@
 //! added mass itself, angular ones of the added inertia over the ellipsoid's and .6 of the displaced one's, so that no
 //! divisor vanishes where the ellipsoid is round.
 
-use super::Solid;
-use super::recognize::Placed;
+use super::{Placed, Solid};
 use crate::error::Error;
 use crate::hydro::AddedMass;
 use crate::math;
@@ -262,5 +261,65 @@ impl Solid {
                 length: height,
             },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A table that lacks a row, has one twice, a word for a number, or a solid that there is not, is refused whole.
+    #[test]
+    fn broken_tables_are_refused() {
+        let whole = include_str!("added_mass.csv");
+        assert!(Table::from_csv(whole).is_ok());
+        assert!(Table::from_csv("").is_err());
+        let lines: Vec<&str> = whole.lines().collect();
+        for i in (3..lines.len()).step_by(7) {
+            let (before, after) = (lines[..i].join("\n"), lines[i + 1..].join("\n"));
+            let with = |line: &str| Table::from_csv(&format!("{before}\n{line}\n{after}"));
+            let row = lines[i];
+            assert!(with(row).is_ok(), "{row}");
+            assert!(with("").is_err(), "{row}");
+            assert!(with(&format!("{row}\n{row}")).is_err(), "{row}");
+            assert!(with(&row[..row.len() / 2]).is_err(), "{row}");
+            assert!(with(&row.replacen(',', ",x", 1)).is_err(), "{row}");
+            assert!(with(&row.replacen('c', "k", 1)).is_err(), "{row}");
+        }
+    }
+
+    /// On its rows the table is what it says: of a cube, of a box that is given in another order, of a cylinder.
+    #[test]
+    fn rows_are_found_again() {
+        let of = |solid| {
+            added_mass(&Placed {
+                solid,
+                axis: 0,
+                sign: 1.0,
+            })
+        };
+        let cuboid = |x, y, z| Solid::Cuboid {
+            lengths: Vector3::new(x, y, z),
+        };
+        let cube = of(cuboid(2.0, 2.0, 2.0));
+        assert!((cube.linear[(1, 1)] / 8.0 - 6.38525e-1).abs() < 1e-9);
+        // Edges of 1, 4 and 2: twice a ratio of 2.
+        let row = [
+            2.30837e-1, 5.30563e-1, 1.55874, 5.06189e-1, 9.01695e-1, 2.92215e-1,
+        ];
+        let solid = cuboid(1.0, 4.0, 2.0);
+        let (found, moments) = (of(solid), solid.second_moment());
+        for (axis, place) in [(1, 0), (2, 1), (0, 2)] {
+            let displaced = moments[(axis + 1) % 3] + moments[(axis + 2) % 3];
+            assert!((found.linear[(axis, axis)] / 8.0 / row[place] - 1.0).abs() < 1e-9);
+            let about = found.angular[(axis, axis)] / displaced;
+            assert!((about / row[3 + place] - 1.0).abs() < 1e-9);
+        }
+        let cylinder = of(Solid::Cylinder {
+            radius: 0.5,
+            height: 2.0,
+        });
+        let volume = std::f64::consts::FRAC_PI_2;
+        assert!((cylinder.linear[(0, 0)] / volume - 3.06055e-1).abs() < 1e-9);
     }
 }
