@@ -107,7 +107,7 @@ pub struct Immersion {
 }
 
 impl Immersion {
-    /// An empty set in a [`Fluid`] at rest, or in another [`Medium`].
+    /// An empty set in a [`Fluid`](crate::Fluid) at rest, or in another [`Medium`].
     pub fn new(medium: impl Into<Medium>) -> Self {
         let mut immersion = Self {
             integrator: Integrator::default(),

@@ -50,7 +50,7 @@ impl Immersion {
     /// water then gets many times the velocity that the impulse is good for.
     ///
     /// For a wanted change of velocity Δv the impulse is `𝕄 (Δv, 0)`, or `m·Δv` with m =
-    /// [`DryMass::mass`] plus the added mass along Δv. Locked axes keep their velocity. A body that is not in
+    /// [`DryMass::mass`](crate::DryMass::mass) plus the added mass along Δv. Locked axes keep their velocity. A body that is not in
     /// the fluid gets rapier's impulse. Wakes the body. A link of a multibody does not feel it, as it does not
     /// feel rapier's: rapier moves it by its multibody's generalized velocities alone. Push links by forces.
     ///

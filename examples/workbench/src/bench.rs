@@ -5,9 +5,10 @@ use crate::film::Film;
 use crate::history::History;
 use crate::methods;
 use crate::saved::Saved;
-use crate::state::State;
+use crate::state::{Body, State};
 use crate::view::View;
 use rapier3d_immersed::preset;
+use rapier3d_immersed::rapier3d::prelude::RigidBodyHandle;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -99,6 +100,12 @@ impl Bench {
     /// The world as it is.
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// The body that is spoken of, and rapier's handle of it.
+    pub fn selected(&self) -> Option<(&Body, RigidBodyHandle)> {
+        let index = self.view.selected?;
+        Some((self.state.bodies.get(index)?, self.state.handle(index)?))
     }
 
     /// What has been changed.

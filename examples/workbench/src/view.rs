@@ -25,8 +25,8 @@ pub struct View {
     pub phase: bool,
     /// The panel.
     pub panel: bool,
-    /// The body that the panel speaks of.
-    pub selected: usize,
+    /// The body that is spoken of, if one is.
+    pub selected: Option<usize>,
 }
 
 impl Default for View {
@@ -41,7 +41,7 @@ impl Default for View {
             trails: false,
             phase: false,
             panel: true,
-            selected: 0,
+            selected: Some(0),
         }
     }
 }

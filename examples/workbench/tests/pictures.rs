@@ -23,7 +23,7 @@ fn plain() -> View {
     View {
         forces: false,
         panel: false,
-        selected: usize::MAX,
+        selected: None,
         ..View::default()
     }
 }

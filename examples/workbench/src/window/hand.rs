@@ -153,7 +153,7 @@ impl Hand {
         match self.tool {
             Tool::Select => {
                 if (last - first).length() < NEAR * (first - sight.origin).length() {
-                    bench.view.selected = nearest(sight, bench).unwrap_or(usize::MAX);
+                    bench.view.selected = nearest(sight, bench);
                 }
                 None
             }

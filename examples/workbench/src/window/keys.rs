@@ -48,7 +48,7 @@ pub fn pressed(key: Key, shift: bool, bench: &mut Bench, hand: &mut Hand) -> Opt
         Key::Period => return Some(Command::Speed(bench.speed() * FASTER)),
         Key::Z => return Some(Command::Undo),
         Key::O => return Some(rain(bench, hand)),
-        Key::Delete => return Some(Command::Change(Change::Remove(view.selected))),
+        Key::Delete => return remove(bench),
         Key::C => return Some(Command::Change(Change::Clear)),
         Key::R => return Some(Command::Record(bench.film_length().is_none())),
         Key::S => hand.tool = Tool::Select,
@@ -65,6 +65,12 @@ pub fn pressed(key: Key, shift: bool, bench: &mut Bench, hand: &mut Hand) -> Opt
         _ => {}
     }
     None
+}
+
+/// Takes the selected body away.
+pub fn remove(bench: &Bench) -> Option<Command> {
+    let selected = bench.view.selected?;
+    Some(Command::Change(Change::Remove(selected)))
 }
 
 /// A rain of what is in the hand; each falls otherwise than the one before.

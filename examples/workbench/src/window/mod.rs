@@ -10,7 +10,6 @@ mod stage;
 pub use files::Files;
 pub use hand::{Hand, Sight, Tool};
 pub use keys::{HELP, pressed};
-pub use panel::show as show_panel;
 
 use crate::bench::{Bench, Command};
 use crate::phase::Phase;

@@ -59,7 +59,8 @@ pub fn show(
             .anchor(Align2::RIGHT_BOTTOM, vec2(-8.0, -8.0))
             .resizable(false)
             .show(ctx, |ui| {
-                let marker = phase.marker(bench.state(), bench.view.selected);
+                let selected = bench.view.selected;
+                let marker = selected.and_then(|body| phase.marker(bench.state(), body));
                 diagram::show(ui, phase, marker.as_ref());
                 ui.label("ring: where the selected body is expected; dot: now");
             });
@@ -174,7 +175,7 @@ fn bodies(ui: &mut Ui, bench: &Bench, hand: &mut Hand, asked: &mut Vec<Command>)
             asked.push(keys::rain(bench, hand));
         }
         if ui.button("remove selected").clicked() {
-            asked.push(Command::Change(Change::Remove(bench.view.selected)));
+            asked.extend(keys::remove(bench));
         }
         if ui.button("clear").clicked() {
             asked.push(Command::Change(Change::Clear));
@@ -293,8 +294,8 @@ fn view(ui: &mut Ui, bench: &mut Bench) {
 }
 
 fn selected(ui: &mut Ui, bench: &Bench, phase: &Phase) {
-    let (state, index) = (bench.state(), bench.view.selected);
-    let (Some(body), Some(handle)) = (state.bodies.get(index), state.handle(index)) else {
+    let state = bench.state();
+    let (Some((body, handle)), Some(index)) = (bench.selected(), bench.view.selected) else {
         ui.weak("none: click one");
         return;
     };

@@ -183,8 +183,8 @@ fn show_line(window: &mut Window, mut points: impl Iterator<Item = Vector>, colo
 }
 
 fn show_selected(window: &mut Window, bench: &Bench) {
-    let (state, index) = (bench.state(), bench.view.selected);
-    let (Some(of), Some(handle)) = (state.bodies.get(index), state.handle(index)) else {
+    let state = bench.state();
+    let Some((of, handle)) = bench.selected() else {
         return;
     };
     let at = state.world().bodies[handle].center_of_mass();

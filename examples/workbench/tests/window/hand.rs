@@ -119,15 +119,15 @@ fn a_click_selects_the_nearest_and_a_drag_turns() {
     let mut hand = Hand::default();
     let at = Vector::new(0.5, 1.0, 0.0);
     assert_eq!(drag(&mut hand, &mut bench, &[at, at]), None);
-    assert_eq!(bench.view.selected, 2);
+    assert_eq!(bench.view.selected, Some(2));
     let beside = Vector::new(0.51, 1.02, 0.0);
-    bench.view.selected = 0;
+    bench.view.selected = Some(0);
     drag(&mut hand, &mut bench, &[beside, beside]);
-    assert_eq!(bench.view.selected, 2);
+    assert_eq!(bench.view.selected, Some(2));
     // A drag changes nothing, a click beside all of them selects none.
     drag(&mut hand, &mut bench, &[Vector::new(-0.5, 1.0, 0.0), at]);
-    assert_eq!(bench.view.selected, 2);
+    assert_eq!(bench.view.selected, Some(2));
     let nothing = Vector::new(0.2, 0.3, 0.0);
     drag(&mut hand, &mut bench, &[nothing, nothing]);
-    assert_eq!(bench.view.selected, usize::MAX);
+    assert_eq!(bench.view.selected, None);
 }

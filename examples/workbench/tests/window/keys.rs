@@ -61,7 +61,7 @@ fn bodies_come_and_go_by_keys() {
     let mut app = with_leaf();
     press(&mut app, Key::O);
     assert_eq!(app.bench.state().bodies.len(), 31);
-    app.bench.view.selected = 4;
+    app.bench.view.selected = Some(4);
     press(&mut app, Key::Delete);
     assert_eq!(app.bench.state().bodies.len(), 30);
     press(&mut app, Key::Z);

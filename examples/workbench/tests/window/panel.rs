@@ -194,7 +194,7 @@ fn the_selected_body_is_described() {
     let body = &screen.app.bench.state().bodies[0];
     let descent = format!("{:.2} m/s", body.descent);
     assert!(says(&screen, &descent), "{descent}");
-    screen.app.bench.view.selected = 7;
+    screen.app.bench.view.selected = Some(7);
     screen.rest();
     assert!(says(&screen, "none: click one"));
 }
