@@ -1,6 +1,8 @@
 //! What the bodies of an immersion are in, and how it moves.
 
 use super::registry::SWEEP;
+#[cfg(feature = "serde-serialize")]
+use crate::error::Error;
 use crate::flow::{Flow, FlowSample, Still};
 use crate::medium::Medium;
 use rapier3d::math::Vector;
@@ -21,7 +23,6 @@ pub(super) struct Environment {
     /// Gravity in the last step, m/s²: the read-out uses it.
     pub gravity: Vector,
     /// Steps after which a layer's fluid that comes to rest needs no looking at any more.
-    #[cfg_attr(feature = "serde-serialize", serde(skip))]
     resting_in: [u32; Medium::MOST_LAYERS],
 }
 
@@ -57,6 +58,22 @@ impl Environment {
             own.flow = Some(Arc::new(Still));
             self.resting_in[layer] = SWEEP + 1;
         }
+    }
+
+    /// After loading: a fluid that was coming to rest goes on doing so.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`].
+    #[cfg(feature = "serde-serialize")]
+    pub fn restore(&mut self) -> Result<(), Error> {
+        for (layer, left) in self.medium.layers_mut().iter_mut().zip(self.resting_in) {
+            let most = f64::from(SWEEP + 1);
+            Error::check_range("steps until a fluid rests", left.into(), 0.0, most)?;
+            if left > 0 {
+                layer.flow = Some(Arc::new(Still));
+            }
+        }
+        Ok(())
     }
 
     /// Counts a step; whether some fluid was coming to rest and none moves from now on.

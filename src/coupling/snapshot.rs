@@ -19,7 +19,7 @@ use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Version of what is written. Others are refused.
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 
 /// What is written, in this order.
 #[derive(Serialize)]
@@ -86,6 +86,8 @@ impl Read {
         Error::check_not_negative("time of the immersion", self.environment.time)?;
         check_vectors("gravity", [self.environment.gravity])?;
         self.environment.medium.check()?;
+        let mut environment = self.environment;
+        environment.restore()?;
         let mut registry = self.registry;
         registry.restore()?;
         for series in self.series.iter() {
@@ -95,12 +97,12 @@ impl Read {
             state.check(&self.series)?;
         }
         let mut constants = ConstantsTable::default();
-        renew_constants(&mut registry, &mut constants, &self.environment)?;
+        renew_constants(&mut registry, &mut constants, &environment)?;
         Ok(Immersion {
             integrator: self.integrator,
             body_changes: self.body_changes,
             enabled: self.enabled,
-            environment: self.environment,
+            environment,
             registry,
             series: self.series,
             warnings: self.warnings,

@@ -2,9 +2,9 @@
 
 use rapier3d::geometry::SharedShape;
 use rapier3d::math::Pose;
-use rapier3d::parry::shape::{Shape, TypedShape};
+use rapier3d::parry::shape::{Shape, TypedShape, Voxels};
 
-/// Whether two shapes are equal, as far as that can be told: one that is not a solid of parry's is equal to
+/// Whether two shapes are equal, as far as that can be told: one that encloses no volume, or is not parry's, is equal to
 /// itself alone.
 pub(crate) fn equal_shapes(a: &dyn Shape, b: &dyn Shape) -> bool {
     if std::ptr::addr_eq(a, b) {
@@ -44,6 +44,16 @@ pub(crate) fn equal_shapes(a: &dyn Shape, b: &dyn Shape) -> bool {
         }
         (TypedShape::RoundConvexPolyhedron(a), TypedShape::RoundConvexPolyhedron(b)) => {
             a.border_radius == b.border_radius && a.inner_shape == b.inner_shape
+        }
+        (TypedShape::RoundTriangle(a), TypedShape::RoundTriangle(b)) => {
+            a.border_radius == b.border_radius && a.inner_shape == b.inner_shape
+        }
+        (TypedShape::Voxels(a), TypedShape::Voxels(b)) => {
+            let cells = |voxels: &Voxels| {
+                let filled = voxels.voxels().filter(|voxel| !voxel.state.is_empty());
+                filled.map(|voxel| voxel.grid_coords).collect::<Vec<_>>()
+            };
+            a.voxel_size() == b.voxel_size() && cells(a) == cells(b)
         }
         _ => false,
     }
@@ -88,6 +98,11 @@ mod tests {
                 SharedShape::round_cylinder(x, 1.0, y),
                 SharedShape::round_cone(x, 1.0, y),
                 round_hull(x, y),
+                SharedShape::round_triangle(Vector::ZERO, Vector::X * x, Vector::Y, y),
+                SharedShape::voxels_from_points(
+                    Vector::splat(x),
+                    &[Vector::ZERO, Vector::X * 2.0 * y],
+                ),
             ]
         };
         let (first, same) = (make(0.5, 0.25), make(0.5, 0.25));

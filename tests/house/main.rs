@@ -25,9 +25,9 @@ const LAYERS: &[&[&str]] = &[
 ];
 
 /// Lines of code, unit tests aside, that the bridge to rapier may have: some 3,000 for bodies that fly, 1,500
-/// for what holds them, 1,000 for what their users change, 600 for bodies of parts and engines, 1,100 for those between
+/// for what holds them, 1,000 for what their users change, 600 for bodies of parts and engines, 1,120 for those between
 /// fluids, 50 that compare a body with what a codebook was planned for.
-const MOST_LINES_OF_COUPLING: usize = 7350;
+const MOST_LINES_OF_COUPLING: usize = 7370;
 
 fn house() -> House {
     House::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"))

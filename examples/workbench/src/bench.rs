@@ -1,6 +1,6 @@
 //! The bench: a world that goes on and back by commands.
 
-use crate::change::{Change, Setting};
+use crate::change::Change;
 use crate::film::Film;
 use crate::history::History;
 use crate::methods;
@@ -14,6 +14,9 @@ use std::path::{Path, PathBuf};
 
 /// Steps of the longest fall: ten minutes.
 pub const LONGEST_FALL: u64 = 240 * 600;
+const OVER: &str = "ten minutes are over: go back";
+/// Steps between two settings of the same thing that were made in one go, by a slider.
+const ONE_GO: u64 = 30;
 /// Steps that are made for one picture at most; beyond, the bench runs slower than asked.
 const MOST_STEPS: u64 = 12;
 /// Slowest and fastest motion, times real time.
@@ -222,7 +225,7 @@ impl Bench {
         }
         if self.state.step == LONGEST_FALL {
             self.playing = false;
-            self.message = "ten minutes are over: rewind, or begin anew".into();
+            self.message = OVER.into();
         }
     }
 
@@ -230,8 +233,8 @@ impl Bench {
     pub fn must_prepare(&self, command: &Command) -> bool {
         let mut settings = self.state.settings;
         let new = match command {
-            Command::Change(Change::Set(Setting::Method(method))) => {
-                settings.method = *method;
+            Command::Change(Change::Set(setting)) => {
+                setting.put(&mut settings);
                 None
             }
             Command::Change(Change::Place(body)) => Some((body.shape, body.size)),
@@ -247,9 +250,10 @@ impl Bench {
     fn change(&mut self, change: Change) -> Result<String, String> {
         let (change, mut notes) = change.held()?;
         if self.state.step == LONGEST_FALL {
-            return Err("ten minutes are over: rewind, or begin anew".into());
+            return Err(OVER.into());
         }
         self.state.change(&change)?;
+        self.view.forget(&change);
         self.changes.truncate(self.done);
         self.history.forget(self.state.step, self.done);
         let step = self.state.step;
@@ -310,21 +314,30 @@ impl Bench {
     fn go_to(&mut self, step: u64) -> Result<(), String> {
         let (state, done) = self.history.before(step)?;
         (self.state, self.done) = (state, done);
-        let film = self.film.take();
-        let outcome = self.step_to(step);
-        self.film = film;
         if let Some(film) = &mut self.film {
             film.cut(step);
         }
-        outcome
+        self.step_to(step)
     }
 
+    /// Takes back the last change; of settings that a slider has made in one go, all.
     fn undo(&mut self) -> Result<String, String> {
         let step = self.state.step;
-        let last = self.done.checked_sub(1).ok_or("nothing to undo")?;
-        self.changes.truncate(self.done);
-        self.changes.remove(last);
-        self.history.forget(step, last);
+        let mut first = self.done.checked_sub(1).ok_or("nothing to undo")?;
+        let changes = &mut self.changes;
+        while let Some([before, after]) =
+            first.checked_sub(1).map(|i| [&changes[i], &changes[first]])
+            && after.change.replaces(&before.change)
+            && after.step - before.step < ONE_GO
+        {
+            first -= 1;
+        }
+        let began = changes[first].step;
+        changes.truncate(first);
+        self.history.forget(step, first);
+        if let Some(film) = &mut self.film {
+            film.cut(began);
+        }
         self.go_to(step)?;
         Ok(String::new())
     }

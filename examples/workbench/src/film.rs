@@ -42,10 +42,10 @@ impl Film {
         (self.frames.len() - 1) as f64 * INTERVAL as f64 * f64::from(preset::LEAF_DT)
     }
 
-    /// Keeps a moment if it is due.
+    /// Keeps a moment if it is due, and after those that are kept.
     pub fn keep(&mut self, state: &State) {
-        let first = self.frames[0].step;
-        if (state.step - first).is_multiple_of(INTERVAL) {
+        let [first, last] = [0, self.frames.len() - 1].map(|i| self.frames[i].step);
+        if state.step > last && (state.step - first).is_multiple_of(INTERVAL) {
             self.push(state);
         }
     }
@@ -98,10 +98,19 @@ impl Film {
 
     fn recording(&self, state: &State, level: &Vec3) -> Recording {
         let interval = INTERVAL as f64 * f64::from(preset::LEAF_DT);
-        let track = |id: &u64| {
+        let track = |index: usize, id: &u64| {
             let known = self.frames.iter().find_map(|frame| frame.bodies.get(id));
-            let mut last = known.copied().unwrap_or_default();
+            // One that was placed after the last picture is where it is now.
+            let now = || {
+                Some(pose_parts(
+                    state.world().bodies[state.handle(index)?].position(),
+                ))
+            };
             let at_rest = Forces::default();
+            let mut last = known
+                .copied()
+                .or_else(|| Some((now()?, at_rest)))
+                .unwrap_or_default();
             let track = self
                 .frames
                 .iter()
@@ -114,7 +123,8 @@ impl Film {
                 });
             track.collect::<Vec<_>>()
         };
-        let tracks: Vec<_> = state.bodies.iter().map(|body| track(&body.id)).collect();
+        let bodies = state.bodies.iter().enumerate();
+        let tracks: Vec<_> = bodies.map(|(index, body)| track(index, &body.id)).collect();
         let moments = 0..self.frames.len();
         Recording {
             times: moments.clone().map(|k| k as f64 * interval).collect(),

@@ -100,7 +100,8 @@ pub fn numbers(kind: &Kind, settings: &Settings, height: f64) -> Option<Dimensio
 }
 
 /// What has been prepared, by what it was prepared for. Preparing is a pure function of that.
-struct Shelf<K, T>(Mutex<Option<HashMap<K, T>>>);
+/// What could not be is not tried again.
+struct Shelf<K, T>(Mutex<Option<HashMap<K, Result<T, String>>>>);
 
 impl<K: Eq + Hash, T: Clone> Shelf<K, T> {
     const fn new() -> Self {
@@ -115,12 +116,7 @@ impl<K: Eq + Hash, T: Clone> Shelf<K, T> {
     fn get(&self, key: K, make: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
         let mut shelf = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let shelf = shelf.get_or_insert_default();
-        if let Some(known) = shelf.get(&key) {
-            return Ok(known.clone());
-        }
-        let new = make()?;
-        shelf.insert(key, new.clone());
-        Ok(new)
+        shelf.entry(key).or_insert_with(make).clone()
     }
 }
 

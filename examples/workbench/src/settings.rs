@@ -207,6 +207,12 @@ impl Settings {
         .map(Some)
     }
 
+    /// Whether bodies are moved in the same way: all but the motion of the fluids is the same.
+    pub fn moves_as(&self, other: &Self) -> bool {
+        let of = |s: &Self| (s.fluids, s.law, s.method, s.coefficients, s.factors);
+        of(self) == of(other)
+    }
+
     /// Whether two settings have the same medium, but for what moves in it.
     pub fn same_fluids(&self, other: &Self) -> bool {
         (self.fluids, self.level, self.waves) == (other.fluids, other.level, other.waves)

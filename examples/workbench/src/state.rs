@@ -21,7 +21,7 @@ pub const GRAVITY: f64 = 9.81;
 const MOST_BODIES: usize = 400;
 /// Side of the ground, m.
 const GROUND: f64 = 40.0;
-/// What is farther from the middle than this, m, is taken out of the world.
+/// What is farther from the middle than this, m, is switched off.
 const FARTHEST: f32 = 16.0;
 /// What is faster, m/s and rad/s, is held: an ideal fluid resists nothing.
 const FASTEST: f32 = 80.0;
@@ -63,6 +63,15 @@ pub struct Body {
 }
 
 impl Body {
+    /// Of its farthest point from its center of mass, m.
+    pub fn reach(&self) -> f32 {
+        kind(self.shape, self.size).map_or(0.0, |kind| {
+            let corners = kind.solid.vertices().iter();
+            let reach = corners.map(|v| (v - kind.dry.center).norm());
+            reach.fold(0.0, f64::max) as f32
+        })
+    }
+
     /// Whether it was placed since the last step.
     pub(crate) fn is_fresh(&self) -> bool {
         self.fresh
@@ -150,6 +159,12 @@ impl State {
         self.scene.pieces.get(body).map(|piece| piece.handle)
     }
 
+    /// Whether a body is there to be seen: not if it has left the ground.
+    pub fn is_seen(&self, body: usize) -> bool {
+        let handle = self.handle(body);
+        handle.is_some_and(|handle| self.world().bodies[handle].is_enabled())
+    }
+
     /// What the fluid does to a body; `None` where there is no body or no fluid for it.
     pub fn forces(&self, body: usize) -> Option<ForceBreakdown> {
         let bodies = &self.scene.world.bodies;
@@ -233,9 +248,7 @@ impl State {
         velocity: Vec3,
         spin: Vec3,
     ) -> Result<(), String> {
-        if self.bodies.len() >= MOST_BODIES {
-            return Err(format!("there are {MOST_BODIES} bodies already"));
-        }
+        self.check_room()?;
         let of = kind(shape, size)?;
         let asked = at.y;
         let pose = |at: &Vec3| {
@@ -280,6 +293,13 @@ impl State {
         Ok(())
     }
 
+    fn check_room(&self) -> Result<(), String> {
+        match self.bodies.len() {
+            MOST_BODIES.. => Err(format!("there are {MOST_BODIES} bodies already")),
+            _ => Ok(()),
+        }
+    }
+
     fn rain(&mut self, rain: &Rain) -> Result<(), String> {
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(rain.seed);
         for count in 0..rain.count as usize {
@@ -311,6 +331,7 @@ impl State {
     }
 
     fn draw(&mut self, points: &[[f64; 3]]) -> Result<(), String> {
+        self.check_room()?;
         let leaf = methods::experiment(&kind(Shape::Leaf, 1.0)?, &self.settings);
         let sketch = path::sketch(points, &leaf)?;
         // The search asks the medium of the moment.
@@ -356,7 +377,7 @@ impl State {
         self.watch();
     }
 
-    /// Keeps what is shown of each body, and takes out what has left the ground.
+    /// Keeps what is shown of each body, and switches off what has left the ground.
     fn watch(&mut self) {
         let dt = f64::from(preset::LEAF_DT);
         for (body, piece) in self.bodies.iter_mut().zip(&self.scene.pieces) {
@@ -405,7 +426,7 @@ impl State {
         let in_wake = settings.method == Method::Stochastic && settings.turbulence == 0.0;
         let wake = in_wake.then_some((first.0, first.1.to_bits()));
         let before = self.applied.replace((settings, wake));
-        let all = before.is_none_or(|(before, _)| before != settings);
+        let all = before.is_none_or(|(before, _)| !before.moves_as(&settings));
         let anew = before != self.applied;
         if anew && let Err(problem) = self.apply_medium(before, wake) {
             self.notes.push(problem);

@@ -1,7 +1,15 @@
 //! How the bench is looked at: nothing of it moves a body.
 
+use crate::change::Change;
 use rapier3d_immersed::DebugRender;
+use rapier3d_immersed::rapier3d::math::Vector;
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+/// Greatest coordinate of eye and target, m.
+const FARTHEST: f32 = 100.0;
+/// From the eye to its target, m.
+pub(crate) const DISTANCE: RangeInclusive<f32> = 0.1..=40.0;
 
 /// Where one looks from, and what is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,15 +66,30 @@ impl View {
         }
     }
 
+    /// After a body was removed another one has its number.
+    pub(crate) fn forget(&mut self, change: &Change) {
+        self.selected = match (change, self.selected) {
+            (Change::Clear, _) => None,
+            (Change::Remove(gone), Some(selected)) if *gone == selected => None,
+            (Change::Remove(gone), Some(selected)) if *gone < selected => Some(selected - 1),
+            (_, selected) => selected,
+        };
+    }
+
     /// # Errors
-    /// Names what is no number, or an eye in its target.
+    /// Names an eye or a target that is no number or too far away, and an eye that is too near its target or too far from it.
     pub fn check(&self) -> Result<(), String> {
-        let numbers = self.eye.iter().chain(&self.target);
-        if !numbers.clone().all(|x| x.is_finite()) {
-            return Err("eye or target is no number".into());
+        let mut numbers = self.eye.iter().chain(&self.target);
+        if !numbers.all(|x| x.abs() <= FARTHEST) {
+            return Err(format!("eye or target is no place within {FARTHEST} m"));
         }
-        if self.eye == self.target {
-            return Err("the eye is in its target".into());
+        let [a, b] = [self.eye, self.target].map(Vector::from);
+        let distance = (a - b).length();
+        if !DISTANCE.contains(&distance) {
+            let (least, most) = DISTANCE.into_inner();
+            return Err(format!(
+                "the eye is {distance} m from its target, not {least} to {most}"
+            ));
         }
         Ok(())
     }

@@ -112,6 +112,11 @@ fn what_there_is_is_drawn(pictures: &mut Pictures) {
     change(&mut pond, Change::Set(Setting::Fluids(Fluids::Pond)));
     let water = shot(pond);
     assert!(differ(&empty, &water) > 30_000);
+    let mut high = with(plain(), None);
+    change(&mut high, Change::Set(Setting::Fluids(Fluids::Pond)));
+    change(&mut high, Change::Set(Setting::Level(1.0)));
+    // Its far end is seen higher, before any step.
+    assert!(differ(&water, &shot(high)) > 5000);
 }
 
 /// Many bodies of several kinds, in one picture after another: nodes come and go.

@@ -108,6 +108,28 @@ fn threads_change_nothing() {
     assert_eq!(with(1), with(2));
 }
 
+/// A fluid that was coming to rest when the snapshot was made goes on doing so.
+#[cfg(feature = "serde-serialize")]
+#[test]
+fn a_fluid_that_comes_to_rest_does_so_in_a_copy() {
+    let (mut world, mut immersion, handles) = scene(30);
+    immersion.set_medium(Medium::layered(
+        Layer::new(Fluid::AIR),
+        Layer::new(Fluid::WATER).with_flow(wind()),
+    ));
+    run(&mut world, &mut immersion, 60);
+    immersion.clear_flow();
+    run(&mut world, &mut immersion, 5);
+    let snapshot = postcard::to_stdvec(&(&world, &immersion)).unwrap();
+    let (mut other, mut restored): (PhysicsWorld, Immersion) =
+        postcard::from_bytes(&snapshot).unwrap();
+    for step in 0..60 {
+        run(&mut world, &mut immersion, 1);
+        run(&mut other, &mut restored, 1);
+        assert_eq!(bits(&world, &handles), bits(&other, &handles), "{step}");
+    }
+}
+
 /// A snapshot has all but the flow and the waves. Set again, they leave no trace of it; and neither does a copy of the
 /// immersion beside a world that was read.
 #[cfg(feature = "serde-serialize")]

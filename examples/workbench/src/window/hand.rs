@@ -13,6 +13,8 @@ const SPEED_PER_LENGTH: f32 = 4.0;
 const SPACING: f32 = 0.02;
 /// How far from a body, in shares of the distance from the eye, a click still means it.
 const NEAR: f32 = 0.03;
+/// How far a line of sight may turn in a click, rad.
+const CLICK: f32 = 0.01;
 
 /// What the left button does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -71,6 +73,17 @@ impl Sight {
     }
 }
 
+/// A drag that goes on.
+#[derive(Clone, Debug, PartialEq)]
+struct Drag {
+    /// With which tool it began.
+    tool: Tool,
+    /// Where it began.
+    sight: Sight,
+    /// Where on the tool's plane it has been, m.
+    points: Vec<Vector>,
+}
+
 /// The tool, what it holds, and how far a drag has come.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hand {
@@ -80,8 +93,7 @@ pub struct Hand {
     pub body: Placement,
     /// How many bodies rain.
     pub rain: f64,
-    /// Where the drag began and has been, m.
-    drag: Vec<Vector>,
+    drag: Option<Drag>,
 }
 
 impl Default for Hand {
@@ -90,73 +102,71 @@ impl Default for Hand {
             tool: Tool::default(),
             body: Placement::default(),
             rain: 30.0,
-            drag: Vec::new(),
+            drag: None,
         }
     }
 }
 
 impl Hand {
-    /// Where on the tool's plane one points at: on the ground to place something, else on the upright plane through the
-    /// view's target that faces the eye.
+    /// Where on the tool's plane one points at: on the ground to place something, to throw or draw on the upright plane
+    /// through the view's target that faces the eye.
     fn point(&self, sight: &Sight, view: &View) -> Option<Vector> {
-        let point = if self.tool == Tool::Place {
-            sight.meets(Vector::ZERO, Vector::Y)
-        } else {
-            let (eye, target) = (Vector::from(view.eye), Vector::from(view.target));
-            let toward = eye - target;
-            let level = Vector::new(toward.x, 0.0, toward.z);
-            let normal = if level.length() > 1e-3 * toward.length() {
-                level
-            } else {
-                toward
-            };
-            sight.meets(target, normal)
+        let point = match self.tool {
+            Tool::Select => None,
+            Tool::Place => sight.meets(Vector::ZERO, Vector::Y),
+            Tool::Throw | Tool::Draw => {
+                let (eye, target) = (Vector::from(view.eye), Vector::from(view.target));
+                let toward = eye - target;
+                let level = Vector::new(toward.x, 0.0, toward.z);
+                let is_steep = level.length() <= 1e-3 * toward.length();
+                sight.meets(target, if is_steep { toward } else { level })
+            }
         }?;
         let (side, height) = (*ranges::PLACE.end() as f32, *ranges::HEIGHT.end() as f32);
-        let (low, high) = (
-            Vector::new(-side, 0.0, -side),
-            Vector::new(side, height, side),
-        );
-        Some(point.clamp(low, high))
+        let low = Vector::new(-side, 0.0, -side);
+        Some(point.clamp(low, Vector::new(side, height, side)))
     }
 
     /// The left button goes down.
     pub fn press(&mut self, sight: &Sight, view: &View) {
-        self.drag = self.point(sight, view).into_iter().collect();
+        self.drag = Some(Drag {
+            tool: self.tool,
+            sight: *sight,
+            points: self.point(sight, view).into_iter().collect(),
+        });
     }
 
     /// The mouse moves while it is down.
     pub fn drag(&mut self, sight: &Sight, view: &View) {
-        let Some(point) = self.point(sight, view).filter(|_| !self.drag.is_empty()) else {
+        let point = self.point(sight, view);
+        let (Some(Drag { points, .. }), Some(point)) = (&mut self.drag, point) else {
             return;
         };
-        match self.tool {
-            Tool::Draw => {
-                if (point - self.drag[self.drag.len() - 1]).length() >= SPACING {
-                    self.drag.push(point);
-                }
-            }
-            _ => {
-                self.drag.truncate(1);
-                self.drag.push(point);
-            }
+        let Some(last) = points.last() else {
+            return;
+        };
+        if self.tool != Tool::Draw {
+            points.truncate(1);
+            points.push(point);
+        } else if (point - last).length() >= SPACING {
+            points.push(point);
         }
     }
 
     /// It comes up: what that asks for.
     pub fn release(&mut self, sight: &Sight, bench: &mut Bench) -> Option<Command> {
         self.drag(sight, &bench.view);
-        let drag = std::mem::take(&mut self.drag);
-        let first = *drag.first()?;
-        let last = *drag.last()?;
-        let number = |v: Vector| v.to_array().map(f64::from);
-        match self.tool {
-            Tool::Select => {
-                if (last - first).length() < NEAR * (first - sight.origin).length() {
-                    bench.view.selected = nearest(sight, bench);
-                }
-                None
+        let drag = self.drag.take().filter(|drag| drag.tool == self.tool)?;
+        if self.tool == Tool::Select {
+            if sight.direction.distance(drag.sight.direction) < CLICK {
+                bench.view.selected = nearest(sight, bench);
             }
+            return None;
+        }
+        let number = |v: Vector| v.to_array().map(f64::from);
+        let (first, last) = (*drag.points.first()?, *drag.points.last()?);
+        match self.tool {
+            Tool::Select => None,
             Tool::Place => {
                 let [x, _, z] = number(last);
                 let position = [x, self.body.position[1], z];
@@ -167,10 +177,15 @@ impl Hand {
                 Some(self.placed(number(first), number(velocity)))
             }
             Tool::Draw => {
-                let points = drag.into_iter().map(number).collect();
+                let points = drag.points.into_iter().map(number).collect();
                 Some(Command::Change(Change::Draw(points)))
             }
         }
+    }
+
+    /// Lets go of what was begun.
+    pub fn let_go(&mut self) {
+        self.drag = None;
     }
 
     fn placed(&self, position: [f64; 3], velocity: [f64; 3]) -> Command {
@@ -183,7 +198,10 @@ impl Hand {
 
     /// What a drag shows: the arrow of a throw, the line that is drawn, the way from the ground up to what is placed.
     pub fn lines(&self) -> Vec<[Vector; 2]> {
-        let (Some(first), Some(last)) = (self.drag.first(), self.drag.last()) else {
+        let Some(Drag { points, .. }) = &self.drag else {
+            return Vec::new();
+        };
+        let (Some(first), Some(last)) = (points.first(), points.last()) else {
             return Vec::new();
         };
         match self.tool {
@@ -193,7 +211,7 @@ impl Hand {
                 vec![[*last, above]]
             }
             Tool::Throw => vec![[*first, *last]],
-            Tool::Draw => self.drag.windows(2).map(|p| [p[0], p[1]]).collect(),
+            Tool::Draw => points.windows(2).map(|p| [p[0], p[1]]).collect(),
         }
     }
 
@@ -203,17 +221,18 @@ impl Hand {
     }
 }
 
-/// The body that a line of sight comes nearest to, if it is near.
+/// The body that a line of sight hits, or comes nearest to if it is near.
 fn nearest(sight: &Sight, bench: &Bench) -> Option<usize> {
     let state = bench.state();
     let away = |body: usize| {
         let at = state.world().bodies[state.handle(body)?].center_of_mass();
         let along = (at - sight.origin).dot(sight.direction);
         let beside = (at - sight.origin - sight.direction * along).length();
-        (along > 0.0).then_some((body, beside / along))
+        let near = state.bodies[body].reach().max(NEAR * along);
+        (along > 0.0 && beside < near).then_some((body, beside / near))
     };
-    let all = (0..state.bodies.len()).filter_map(away);
-    let near = all.filter(|(_, share)| *share < NEAR);
+    let seen = (0..state.bodies.len()).filter(|body| state.is_seen(*body));
+    let near = seen.filter_map(away);
     near.min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(body, _)| body)
 }

@@ -24,6 +24,12 @@ pub const HELP: [(&str, &str); 14] = [
     ("D, H", "phase diagram, panel"),
 ];
 
+/// Whether a key that stays down goes on asking.
+pub fn repeats(key: Key) -> bool {
+    let repeat = [Key::Left, Key::Right, Key::Comma, Key::Period, Key::Z];
+    repeat.contains(&key)
+}
+
 /// Times the speed that it was.
 const FASTER: f64 = 1.25;
 

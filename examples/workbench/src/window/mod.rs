@@ -13,17 +13,19 @@ pub use keys::{HELP, pressed};
 
 use crate::bench::{Bench, Command};
 use crate::phase::Phase;
-use crate::view::View;
+use crate::view::{DISTANCE, View};
 use kiss3d::prelude::*;
 use rapier3d_immersed::rapier3d::math::Vector;
 use stage::Stage;
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Of the window, pixels.
 const SIZE: [u32; 2] = [1280, 800];
+/// Between two looks at a window that is not seen.
+const UNSEEN: Duration = Duration::from_millis(16);
 
-/// A bench, with what a user has in the hand.
+/// A bench, with what a user has in the hand and sees.
 pub struct App {
     /// The bench.
     pub bench: Bench,
@@ -32,39 +34,57 @@ pub struct App {
     /// Names of files.
     pub files: Files,
     phase: Phase,
-    /// What is asked for but has to be prepared: it is said first, then done.
-    waiting: Option<Command>,
+    /// Where it is looked from, and where the bench's view was when the two were last the same.
+    camera: OrbitCamera3d,
+    seen: View,
+    cursor: Vec2,
+    down: Vec<Key>,
+    /// What is asked for but has to be prepared, and whether a picture has said so.
+    waiting: Option<(Command, bool)>,
 }
 
 impl App {
     /// For a bench.
     pub fn new(bench: Bench) -> Self {
         Self {
+            camera: camera(&bench.view),
+            seen: bench.view,
             bench,
             hand: Hand::default(),
             files: Files::default(),
             phase: Phase::default(),
+            cursor: Vec2::ZERO,
+            down: Vec::new(),
             waiting: None,
         }
     }
 
-    /// Carries a command out; one that takes a second or more, at the beginning of the next frame.
+    /// Carries a command out; one that takes a second or more, after the next picture, which says so.
     pub fn ask(&mut self, command: Command) {
+        if let Some((earlier, _)) = self.waiting.take() {
+            self.apply(earlier);
+        }
         if self.bench.must_prepare(&command) {
             self.bench.message = "the method is trained for this thing …".into();
-            self.waiting = Some(command);
+            self.waiting = Some((command, false));
         } else {
-            // What is wrong is in the bench's message.
-            self.bench.apply(command).ok();
+            self.apply(command);
         }
     }
 
-    /// Lets the time of a frame pass, s.
+    fn apply(&mut self, command: Command) {
+        if matches!(command, Command::Load(_)) {
+            self.hand.let_go();
+        }
+        // What is wrong is in the bench's message.
+        self.bench.apply(command).ok();
+    }
+
+    /// Lets the time between two pictures pass, s.
     pub fn advance(&mut self, seconds: f64) {
         match self.waiting.take() {
-            Some(command) => {
-                self.bench.apply(command).ok();
-            }
+            Some((command, true)) => self.apply(command),
+            Some((command, false)) => self.waiting = Some((command, true)),
             None => self.bench.advance(seconds),
         }
     }
@@ -77,17 +97,47 @@ impl App {
         }
     }
 
-    fn event(&mut self, event: &WindowEvent, camera: &OrbitCamera3d, size: Vec2, at: Vec2) {
-        let (origin, direction) = camera.unproject(at, size);
+    /// The camera for the next picture: a file that was read brings its own view.
+    pub fn camera(&mut self) -> &mut OrbitCamera3d {
+        let (view, seen) = (&self.bench.view, &self.seen);
+        if (view.eye, view.target) != (seen.eye, seen.target) {
+            self.camera.look_at(view.eye.into(), view.target.into());
+        }
+        &mut self.camera
+    }
+
+    /// After a picture: the view is where the camera has been turned to.
+    pub fn keep_view(&mut self) {
+        self.bench.view.eye = self.camera.eye().to_array();
+        self.bench.view.target = self.camera.at().to_array();
+        self.seen = self.bench.view;
+    }
+
+    /// What happens to a window of a size in pixels, and is not the panel's.
+    pub fn event(&mut self, event: &WindowEvent, size: Vec2) {
+        if let WindowEvent::CursorPos(x, y, _) = *event {
+            self.cursor = Vec2::new(x as f32, y as f32);
+        }
+        let (origin, direction) = self.camera.unproject(self.cursor, size);
         let sight = Sight { origin, direction };
         match *event {
             WindowEvent::Key(key, Action::Press, modifiers) => {
+                // A key that stays down is pressed over and over.
+                let again = self.down.contains(&key);
+                if !again {
+                    self.down.push(key);
+                }
+                let others = Modifiers::Control | Modifiers::Alt | Modifiers::Super;
+                if modifiers.intersects(others) || again && !keys::repeats(key) {
+                    return;
+                }
                 let shift = modifiers.contains(Modifiers::Shift);
                 let asked = keys::pressed(key, shift, &mut self.bench, &mut self.hand);
                 if let Some(command) = asked {
                     self.ask(command);
                 }
             }
+            WindowEvent::Key(key, Action::Release, _) => self.down.retain(|down| *down != key),
             WindowEvent::MouseButton(MouseButton::Button1, Action::Press, _) => {
                 self.hand.press(&sight, &self.bench.view);
             }
@@ -97,6 +147,10 @@ impl App {
                 }
             }
             WindowEvent::CursorPos(..) => self.hand.drag(&sight, &self.bench.view),
+            WindowEvent::Focus(false) => {
+                self.down.clear();
+                self.hand.let_go();
+            }
             _ => {}
         }
     }
@@ -107,8 +161,10 @@ fn camera(view: &View) -> OrbitCamera3d {
     let mut camera = OrbitCamera3d::new_with_frustum(0.8, 0.02, 100.0, eye, target);
     // Return is for the fields of the panel.
     camera.rebind_reset_key(None);
-    camera.set_min_dist(0.1);
-    camera.set_max_dist(40.0);
+    let (least, most) = DISTANCE.into_inner();
+    camera.set_min_dist(least);
+    camera.set_max_dist(most);
+    camera.rebind_drag_button(Some(MouseButton::Button3));
     camera
 }
 
@@ -125,43 +181,44 @@ pub async fn open(bench: Bench) {
     lit(&mut window);
     let mut app = App::new(bench);
     let mut stage = Stage::default();
-    let mut camera = camera(&app.bench.view);
-    let mut seen = app.bench.view;
     let mut last = Instant::now();
-    let mut cursor = Vec2::ZERO;
+    let mut panels = None;
     loop {
-        // A file that was read brings its own view.
-        if (app.bench.view.eye, app.bench.view.target) != (seen.eye, seen.target) {
-            camera.look_at(app.bench.view.eye.into(), app.bench.view.target.into());
-        }
         // The left button belongs to the tool, except to select; the right one always turns.
+        let right = window.get_mouse_button(MouseButton::Button2) == Action::Press;
         let turns = match app.hand.tool {
-            Tool::Select => MouseButton::Button1,
+            Tool::Select if !right => MouseButton::Button1,
             _ => MouseButton::Button2,
         };
-        camera.rebind_rotate_button(Some(turns));
-        camera.rebind_drag_button(Some(MouseButton::Button3));
+        app.camera.rebind_rotate_button(Some(turns));
         stage.show(&mut window, &app.bench, &app.hand);
-        window.draw_ui(|ctx| app.panel(ctx));
-        if !window.render_3d(&mut stage.scene, &mut camera).await {
+        // A window that is not seen is not drawn, and its panel, which was not either, would be added to.
+        let shown = window.egui_context().cumulative_pass_nr();
+        if panels == Some(shown) {
+            std::thread::sleep(UNSEEN);
+        } else {
+            panels = Some(shown);
+            window.draw_ui(|ctx| app.panel(ctx));
+        }
+        if !window.render_3d(&mut stage.scene, app.camera()).await {
             break;
         }
-        app.bench.view.eye = camera.eye().to_array();
-        app.bench.view.target = camera.at().to_array();
-        seen = app.bench.view;
+        app.keep_view();
         let size = window.size().as_vec2();
         for event in window.events().iter() {
-            if let WindowEvent::CursorPos(x, y, _) = event.value {
-                cursor = Vec2::new(x as f32, y as f32);
-            }
-            let of_panel = if event.value.is_keyboard_event() {
+            let event = event.value;
+            let of_panel = if event.is_keyboard_event() {
                 window.is_egui_capturing_keyboard()
             } else {
-                window.is_egui_capturing_mouse()
+                event.is_mouse_event() && window.is_egui_capturing_mouse()
             };
-            let ends = matches!(event.value, WindowEvent::MouseButton(_, Action::Release, _));
+            let ends = matches!(
+                event,
+                WindowEvent::MouseButton(_, Action::Release, _)
+                    | WindowEvent::Key(_, Action::Release, _)
+            );
             if !of_panel || ends {
-                app.event(&event.value, &camera, size, cursor);
+                app.event(&event, size);
             }
         }
         let now = Instant::now();
@@ -173,6 +230,7 @@ pub async fn open(bench: Bench) {
 /// Draws without a window. There can be one of it in a program, on its main thread: the renderer's context is global.
 pub struct Pictures {
     surface: OffscreenSurface,
+    stage: Stage,
 }
 
 impl Pictures {
@@ -181,22 +239,23 @@ impl Pictures {
         let mut surface = OffscreenSurface::new(width, height).await;
         surface.set_samples(NumSamples::Four);
         lit(surface.window_mut());
-        Self { surface }
+        let stage = Stage::default();
+        Self { surface, stage }
     }
 
     /// What the window would show.
     pub async fn picture(&mut self, app: &mut App) -> image::RgbImage {
-        let mut stage = Stage::default();
-        let mut camera = camera(&app.bench.view);
-        let resized = WindowEvent::FramebufferSize(self.surface.width(), self.surface.height());
-        camera.handle_event(self.surface.window().canvas(), &resized);
+        let (surface, stage) = (&mut self.surface, &mut self.stage);
+        let resized = WindowEvent::FramebufferSize(surface.width(), surface.height());
+        app.camera()
+            .handle_event(surface.window().canvas(), &resized);
         // The panel knows its size after its first frame.
         for _ in 0..3 {
-            stage.show(self.surface.window_mut(), &app.bench, &app.hand);
-            self.surface.draw_ui(|ctx| app.panel(ctx));
-            self.surface.render_3d(&mut stage.scene, &mut camera).await;
+            stage.show(surface.window_mut(), &app.bench, &app.hand);
+            surface.draw_ui(|ctx| app.panel(ctx));
+            surface.render_3d(&mut stage.scene, app.camera()).await;
         }
-        self.surface.snap_image()
+        surface.snap_image()
     }
 }
 

@@ -12,7 +12,8 @@ use crate::phase::Phase;
 use crate::settings::{Fluids, Law, ranges};
 use crate::state::{Drive, GRAVITY};
 use kiss3d::egui::{
-    self, Align2, CollapsingHeader, Color32, ComboBox, Grid, ScrollArea, Slider, Ui, vec2,
+    self, Align2, CollapsingHeader, Color32, ComboBox, Grid, ScrollArea, Slider, SliderClamping,
+    Ui, vec2,
 };
 use rapier3d_immersed::DebugRender;
 use std::ops::RangeInclusive;
@@ -47,8 +48,6 @@ pub fn show(
                     section("keys", false).show(ui, help);
                 });
             });
-    }
-    if bench.view.panel && !bench.state().bodies.is_empty() {
         egui::Window::new("selected body")
             .anchor(Align2::RIGHT_TOP, vec2(-8.0, 8.0))
             .resizable(false)
@@ -71,7 +70,11 @@ pub fn show(
 /// A slider; what it is moved to.
 fn slider(ui: &mut Ui, text: &str, value: f64, range: RangeInclusive<f64>) -> Option<f64> {
     let mut value = value;
-    let slider = Slider::new(&mut value, range).text(text).max_decimals(3);
+    // What is there stays as it is until it is moved.
+    let slider = Slider::new(&mut value, range)
+        .text(text)
+        .max_decimals(3)
+        .clamping(SliderClamping::Edits);
     ui.add(slider).changed().then_some(value)
 }
 
@@ -107,6 +110,7 @@ fn time(ui: &mut Ui, bench: &Bench, asked: &mut Vec<Command>) {
         for (text, command) in [
             ("step", Command::Step(1)),
             ("− 1 s", Command::Rewind(1.0)),
+            ("to the start", Command::Rewind(f64::MAX)),
             ("undo", Command::Undo),
         ] {
             if ui.button(text).clicked() {
@@ -197,12 +201,12 @@ fn fluid(ui: &mut Ui, bench: &Bench, asked: &mut Vec<Command>) {
             }
         }
     });
-    let moved = vector(
-        ui,
-        &[(0, "wind x, m/s"), (1, "wind up, m/s"), (2, "wind z, m/s")],
-        settings.wind,
-        &ranges::WIND,
-    );
+    let texts = match settings.fluids {
+        Fluids::Water => ["current x, m/s", "current up, m/s", "current z, m/s"],
+        Fluids::Air | Fluids::Pond => ["wind x, m/s", "wind up, m/s", "wind z, m/s"],
+    };
+    let texts = [(0, texts[0]), (1, texts[1]), (2, texts[2])];
+    let moved = vector(ui, &texts, settings.wind, &ranges::WIND);
     set(asked, moved.map(Setting::Wind));
     let moved = slider(
         ui,
@@ -211,8 +215,10 @@ fn fluid(ui: &mut Ui, bench: &Bench, asked: &mut Vec<Command>) {
         ranges::TURBULENCE,
     );
     set(asked, moved.map(Setting::Turbulence));
-    let moved = slider(ui, "eddies, m", settings.eddy, ranges::EDDY);
-    set(asked, moved.map(Setting::Eddy));
+    if settings.turbulence > 0.0 {
+        let moved = slider(ui, "eddies, m", settings.eddy, ranges::EDDY);
+        set(asked, moved.map(Setting::Eddy));
+    }
     if settings.fluids == Fluids::Pond {
         let moved = slider(ui, "level, m", settings.level, ranges::LEVEL);
         set(asked, moved.map(Setting::Level));
@@ -235,6 +241,9 @@ fn law(ui: &mut Ui, bench: &Bench, asked: &mut Vec<Command>) {
             }
         }
     });
+    if settings.method != Method::Law {
+        ui.weak("law and factors: for what is not flat");
+    }
     let names = [
         (Law::Physical, "physical (default)"),
         (Law::Thesis, "the thesis's, with C̃"),
@@ -301,18 +310,22 @@ fn selected(ui: &mut Ui, bench: &Bench, phase: &Phase) {
     };
     let rapier = &state.world().bodies[handle];
     let forces = state.forces(index).unwrap_or_default();
-    let weight = f64::from(rapier.mass()) * GRAVITY;
+    // Rapier's is that of body and fluid while something holds the body.
+    let own = state.immersion.mass_of(handle).map(|own| own.mass);
+    let mass = own.unwrap_or(rapier.mass().into());
+    let weight = mass * GRAVITY;
     Grid::new("selected").num_columns(2).show(ui, |ui| {
         let mut row = |name: &str, value: String| {
             ui.label(name);
             ui.monospace(value);
             ui.end_row();
         };
+        let all = state.bodies.len();
         row(
             "thing",
-            format!("{} of {}", body.shape.name(), state.bodies.len()),
+            format!("{}, {} of {all}", body.shape.name(), index + 1),
         );
-        row("mass", format!("{:.3} g", 1e3 * rapier.mass()));
+        row("mass", format!("{:.3} g", 1e3 * mass));
         row("speed", format!("{:.2} m/s", rapier.linvel().length()));
         row("spin", format!("{:.1} rad/s", rapier.angvel().length()));
         row("mean descent", format!("{:.2} m/s", body.descent));

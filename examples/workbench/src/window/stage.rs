@@ -7,7 +7,7 @@ use crate::kinds::{Shape, kind};
 use crate::settings::Fluids;
 use crate::state::{Drive, SAND, State};
 use kiss3d::prelude::*;
-use rapier3d_immersed::free_surface;
+use rapier3d_immersed::free_surface::{self, FreeSurface, Waves};
 use rapier3d_immersed::rapier3d::math::Vector;
 use std::collections::HashMap;
 
@@ -35,6 +35,8 @@ pub struct Stage {
     /// What a renderer draws.
     pub scene: SceneNode3d,
     water: SceneNode3d,
+    /// Significant height of the pond's waves, and these.
+    waves: (f64, Option<Waves>),
     /// The bodies, by what they are: one mesh and many instances.
     bodies: HashMap<(Shape, u64), SceneNode3d>,
 }
@@ -66,6 +68,7 @@ impl Default for Stage {
         Self {
             scene,
             water,
+            waves: (0.0, None),
             bodies: HashMap::new(),
         }
     }
@@ -86,8 +89,8 @@ impl Stage {
         for [from, to] in hand.lines() {
             window.draw_line(from, to, PATH, 3.0, false);
         }
-        for body in &state.bodies {
-            if bench.view.trails {
+        for (index, body) in state.bodies.iter().enumerate() {
+            if bench.view.trails && state.is_seen(index) {
                 let points = body.trail.iter().map(|p| Vec3::from(*p));
                 show_line(window, points, TRAIL);
             }
@@ -102,7 +105,8 @@ impl Stage {
     fn show_bodies(&mut self, state: &State) {
         let mut instances: HashMap<_, Vec<_>> = HashMap::new();
         for (index, body) in state.bodies.iter().enumerate() {
-            let Some(handle) = state.handle(index) else {
+            let handle = state.handle(index).filter(|_| state.is_seen(index));
+            let Some(handle) = handle else {
                 continue;
             };
             let pose = state.world().bodies[handle].position();
@@ -135,13 +139,21 @@ impl Stage {
         if !pond {
             return;
         }
-        let medium = state.immersion.medium();
-        self.water.set_position(medium.level());
-        let (surface, time) = (medium.surface(), state.immersion.time());
+        // What is set now: the fluid has it with the next step.
+        let settings = &state.settings;
+        if self.waves.0 != settings.waves {
+            // Waves that cannot be are reported by the step.
+            self.waves = (settings.waves, settings.surface().unwrap_or_default());
+        }
+        let level = settings.level as f32;
+        self.water.set_position(Vec3::Y * level);
+        let time = state.immersion.time();
+        let waves = self.waves.1.as_ref();
         self.water.modify_vertices(&mut |vertices| {
             for vertex in vertices {
                 let (x, z) = (vertex.x.into(), vertex.z.into());
-                vertex.y = surface.elevation(x, z, time).height as f32;
+                let height = waves.map_or(0.0, |waves| waves.elevation(x, z, time).height);
+                vertex.y = height as f32;
             }
         });
         self.water.recompute_normals();
@@ -188,10 +200,7 @@ fn show_selected(window: &mut Window, bench: &Bench) {
         return;
     };
     let at = state.world().bodies[handle].center_of_mass();
-    let radius = kind(of.shape, of.size).map_or(0.05, |kind| {
-        let reach = kind.solid.vertices().iter().map(|v| v.norm());
-        1.2 * reach.fold(0.0, f64::max) as f32
-    });
+    let radius = 1.2 * of.reach();
     let ring = (0..=RING).map(|i| {
         let (z, x) = (std::f32::consts::TAU * i as f32 / RING as f32).sin_cos();
         at + Vector::new(x, 0.0, z) * radius

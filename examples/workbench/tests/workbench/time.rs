@@ -208,3 +208,58 @@ fn scenes_can_be_read() {
         assert_eq!(bench.state().bodies.len(), bodies, "{name}");
     }
 }
+
+/// What a slider has set in one go is taken back in one go.
+#[test]
+fn a_slider_is_undone_at_once() {
+    let mut bench = Bench::default();
+    let leaf = Change::Place(Placement::default());
+    bench.apply(Command::Change(leaf)).unwrap();
+    bench.apply(Command::Step(10)).unwrap();
+    let wind = |bench: &mut Bench, x: f64| {
+        let wind = Change::Set(Setting::Wind([x, 0.0, 0.0]));
+        bench.apply(Command::Change(wind)).unwrap();
+    };
+    wind(&mut bench, 0.5);
+    bench.apply(Command::Step(60)).unwrap();
+    for i in 0..20 {
+        wind(&mut bench, 1.0 + 0.1 * f64::from(i));
+        bench.apply(Command::Step(4)).unwrap();
+    }
+    let step = bench.state().step;
+    bench.apply(Command::Undo).unwrap();
+    assert_eq!(bench.state().settings.wind[0], 0.5);
+    assert_eq!((bench.state().step, bench.changes().len()), (step, 2));
+    bench.apply(Command::Undo).unwrap();
+    assert_eq!(bench.state().settings.wind, [0.0; 3]);
+    assert_eq!(bench.state().bodies.len(), 1);
+}
+
+/// A film shows what happened, not what was undone.
+#[test]
+fn a_film_forgets_what_is_undone() {
+    let folder = std::env::temp_dir().join(format!("workbench-film-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let film = |undone: bool| {
+        let mut bench = Bench::default();
+        let leaf = Change::Place(Placement::default());
+        bench.apply(Command::Change(leaf)).unwrap();
+        bench.apply(Command::Record(true)).unwrap();
+        bench.apply(Command::Step(40)).unwrap();
+        if undone {
+            let wind = Change::Set(Setting::Wind([3.0, 0.0, 0.0]));
+            bench.apply(Command::Change(wind)).unwrap();
+        }
+        bench.apply(Command::Step(80)).unwrap();
+        if undone {
+            bench.apply(Command::Undo).unwrap();
+        }
+        bench.apply(Command::Step(16)).unwrap();
+        assert!((bench.film_length().unwrap() - 136.0 / 240.0).abs() < 1e-9);
+        let path = folder.join("film.glb");
+        bench.apply(Command::Film(path.clone())).unwrap();
+        std::fs::read(path).unwrap()
+    };
+    assert!(film(true) == film(false));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
