@@ -3,6 +3,7 @@
 use immersed_workbench::{
     Bench, Change, Command, Fluids, Method, Placement, Rain, Saved, Setting, Shape,
 };
+use rapier3d_immersed::preset;
 
 /// A scene in which much happens: a rain, gusts, water let in, a leaf on a path, one taken away.
 fn eventful() -> Bench {
@@ -255,7 +256,8 @@ fn a_film_forgets_what_is_undone() {
             bench.apply(Command::Undo).unwrap();
         }
         bench.apply(Command::Step(16)).unwrap();
-        assert!((bench.film_length().unwrap() - 136.0 / 240.0).abs() < 1e-9);
+        let length = 136.0 * f64::from(preset::LEAF_DT);
+        assert!((bench.film_length().unwrap() - length).abs() < 1e-9);
         let path = folder.join("film.glb");
         bench.apply(Command::Film(path.clone())).unwrap();
         std::fs::read(path).unwrap()
