@@ -12,9 +12,9 @@ mod error_figure;
 mod picture;
 #[path = "../support/previous.rs"]
 mod previous;
-mod proxy;
 #[path = "../support/mod.rs"]
 mod support;
+mod without;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -149,9 +149,10 @@ fn print(body: &Shaped, solution: &BoundaryElementSolution, seconds: f64) {
         report.asymmetry,
         report.panels,
     );
-    if let Some(error) = proxy::error(body, added) {
+    if let Some(error) = without::error(body, added) {
         println!(
-            "proxy ellipsoid: {:.1} % off for translation, {:.1} % for rotation",
+            "without boundary elements ({}): {:.1} % off for translation, {:.1} % for rotation",
+            error.source,
             100.0 * error.linear,
             100.0 * error.angular
         );
