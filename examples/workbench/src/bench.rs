@@ -10,6 +10,7 @@ use crate::view::View;
 use rapier3d_immersed::preset;
 use rapier3d_immersed::rapier3d::prelude::RigidBodyHandle;
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// Steps of the longest fall: ten minutes.
@@ -20,7 +21,7 @@ const ONE_GO: u64 = 30;
 /// Steps that are made for one picture at most; beyond, the bench runs slower than asked.
 const MOST_STEPS: u64 = 12;
 /// Slowest and fastest motion, times real time.
-const SPEEDS: [f64; 2] = [0.02, 2.0];
+pub(crate) const SPEEDS: RangeInclusive<f64> = 0.02..=2.0;
 
 /// What the bench is asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -152,7 +153,7 @@ impl Bench {
                 Ok(String::new())
             }
             Command::Speed(speed) if speed.is_finite() => {
-                self.speed = speed.clamp(SPEEDS[0], SPEEDS[1]);
+                self.speed = speed.clamp(*SPEEDS.start(), *SPEEDS.end());
                 Ok(String::new())
             }
             Command::Speed(_) => Err("the speed is no number".into()),

@@ -1,6 +1,6 @@
 //! What each key asks for.
 
-use super::hand::{Hand, Tool};
+use super::pointer::{Pointer, Tool};
 use crate::bench::{Bench, Command};
 use crate::change::{Change, Rain, Setting};
 use crate::methods::Method;
@@ -34,7 +34,7 @@ pub fn repeats(key: Key) -> bool {
 const FASTER: f64 = 1.25;
 
 /// What a key asks for; what concerns the view alone is done at once.
-pub fn pressed(key: Key, shift: bool, bench: &mut Bench, hand: &mut Hand) -> Option<Command> {
+pub fn pressed(key: Key, shift: bool, bench: &mut Bench, pointer: &mut Pointer) -> Option<Command> {
     let method = |index: usize| {
         let method = Method::ALL[index];
         Some(Command::Change(Change::Set(Setting::Method(method))))
@@ -53,14 +53,14 @@ pub fn pressed(key: Key, shift: bool, bench: &mut Bench, hand: &mut Hand) -> Opt
         Key::Comma => return Some(Command::Speed(bench.speed() / FASTER)),
         Key::Period => return Some(Command::Speed(bench.speed() * FASTER)),
         Key::Z => return Some(Command::Undo),
-        Key::O => return Some(rain(bench, hand)),
+        Key::O => return Some(rain(bench, pointer)),
         Key::Delete => return remove(bench),
         Key::C => return Some(Command::Change(Change::Clear)),
         Key::R => return Some(Command::Record(bench.film_length().is_none())),
-        Key::S => hand.tool = Tool::Select,
-        Key::B => hand.tool = Tool::Place,
-        Key::T => hand.tool = Tool::Throw,
-        Key::N => hand.tool = Tool::Draw,
+        Key::S => pointer.tool = Tool::Select,
+        Key::B => pointer.tool = Tool::Place,
+        Key::T => pointer.tool = Tool::Throw,
+        Key::N => pointer.tool = Tool::Draw,
         Key::F => view.forces ^= true,
         Key::L => view.trails ^= true,
         Key::P => view.planforms ^= true,
@@ -79,12 +79,12 @@ pub fn remove(bench: &Bench) -> Option<Command> {
     Some(Command::Change(Change::Remove(selected)))
 }
 
-/// A rain of what is in the hand; each falls otherwise than the one before.
-pub fn rain(bench: &Bench, hand: &Hand) -> Command {
+/// A rain of what the tool holds; each falls otherwise than the one before.
+pub fn rain(bench: &Bench, pointer: &Pointer) -> Command {
     Command::Change(Change::Rain(Rain {
-        shape: hand.body.shape,
-        size: hand.body.size,
-        count: hand.rain,
+        shape: pointer.body.shape,
+        size: pointer.body.size,
+        count: pointer.rain,
         seed: 1 + bench.changes().len() as u64,
         ..Rain::default()
     }))

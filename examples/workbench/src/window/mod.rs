@@ -1,22 +1,22 @@
 //! The window: what is seen of a bench, and what the mouse and the keys ask of it.
 
 mod diagram;
+mod drawing;
 mod files;
-mod hand;
 mod keys;
 mod panel;
-mod stage;
+mod pointer;
 
 pub use files::Files;
-pub use hand::{Hand, Sight, Tool};
 pub use keys::{HELP, pressed};
+pub use pointer::{Pointer, Sight, Tool};
 
 use crate::bench::{Bench, Command};
 use crate::phase::Phase;
 use crate::view::{DISTANCE, View};
+use drawing::Drawing;
 use kiss3d::prelude::*;
 use rapier3d_immersed::rapier3d::math::Vector;
-use stage::Stage;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -25,12 +25,12 @@ const SIZE: [u32; 2] = [1280, 800];
 /// Between two looks at a window that is not seen.
 const UNSEEN: Duration = Duration::from_millis(16);
 
-/// A bench, with what a user has in the hand and sees.
+/// A bench, with the tool that a user has and what is seen.
 pub struct App {
     /// The bench.
     pub bench: Bench,
     /// The tool.
-    pub hand: Hand,
+    pub pointer: Pointer,
     /// Names of files.
     pub files: Files,
     phase: Phase,
@@ -50,7 +50,7 @@ impl App {
             camera: camera(&bench.view),
             seen: bench.view,
             bench,
-            hand: Hand::default(),
+            pointer: Pointer::default(),
             files: Files::default(),
             phase: Phase::default(),
             cursor: Vec2::ZERO,
@@ -74,7 +74,7 @@ impl App {
 
     fn apply(&mut self, command: Command) {
         if matches!(command, Command::Load(_)) {
-            self.hand.let_go();
+            self.pointer.let_go();
         }
         // What is wrong is in the bench's message.
         self.bench.apply(command).ok();
@@ -91,8 +91,8 @@ impl App {
 
     /// The panel, and what it asks for.
     pub fn panel(&mut self, ctx: &kiss3d::egui::Context) {
-        let (hand, files) = (&mut self.hand, &mut self.files);
-        for command in panel::show(ctx, &mut self.bench, hand, files, &self.phase) {
+        let (pointer, files) = (&mut self.pointer, &mut self.files);
+        for command in panel::show(ctx, &mut self.bench, pointer, files, &self.phase) {
             self.ask(command);
         }
     }
@@ -106,10 +106,16 @@ impl App {
         &mut self.camera
     }
 
-    /// After a picture: the view is where the camera has been turned to.
+    /// After a picture: the view is where the camera has been turned to, or was last where a file may have it.
     pub fn keep_view(&mut self) {
-        self.bench.view.eye = self.camera.eye().to_array();
-        self.bench.view.target = self.camera.at().to_array();
+        let turned = View {
+            eye: self.camera.eye().to_array(),
+            target: self.camera.at().to_array(),
+            ..self.bench.view
+        };
+        if turned.check().is_ok() {
+            self.bench.view = turned;
+        }
         self.seen = self.bench.view;
     }
 
@@ -132,24 +138,24 @@ impl App {
                     return;
                 }
                 let shift = modifiers.contains(Modifiers::Shift);
-                let asked = keys::pressed(key, shift, &mut self.bench, &mut self.hand);
+                let asked = keys::pressed(key, shift, &mut self.bench, &mut self.pointer);
                 if let Some(command) = asked {
                     self.ask(command);
                 }
             }
             WindowEvent::Key(key, Action::Release, _) => self.down.retain(|down| *down != key),
             WindowEvent::MouseButton(MouseButton::Button1, Action::Press, _) => {
-                self.hand.press(&sight, &self.bench.view);
+                self.pointer.press(&sight, &self.bench.view);
             }
             WindowEvent::MouseButton(MouseButton::Button1, Action::Release, _) => {
-                if let Some(command) = self.hand.release(&sight, &mut self.bench) {
+                if let Some(command) = self.pointer.release(&sight, &mut self.bench) {
                     self.ask(command);
                 }
             }
-            WindowEvent::CursorPos(..) => self.hand.drag(&sight, &self.bench.view),
+            WindowEvent::CursorPos(..) => self.pointer.drag(&sight, &self.bench.view),
             WindowEvent::Focus(false) => {
                 self.down.clear();
-                self.hand.let_go();
+                self.pointer.let_go();
             }
             _ => {}
         }
@@ -180,18 +186,18 @@ pub async fn open(bench: Bench) {
     window.rebind_close_key(None);
     lit(&mut window);
     let mut app = App::new(bench);
-    let mut stage = Stage::default();
+    let mut drawing = Drawing::default();
     let mut last = Instant::now();
     let mut panels = None;
     loop {
         // The left button belongs to the tool, except to select; the right one always turns.
         let right = window.get_mouse_button(MouseButton::Button2) == Action::Press;
-        let turns = match app.hand.tool {
+        let turns = match app.pointer.tool {
             Tool::Select if !right => MouseButton::Button1,
             _ => MouseButton::Button2,
         };
         app.camera.rebind_rotate_button(Some(turns));
-        stage.show(&mut window, &app.bench, &app.hand);
+        drawing.show(&mut window, &app.bench, &app.pointer);
         // A window that is not seen is not drawn, and its panel, which was not either, would be added to.
         let shown = window.egui_context().cumulative_pass_nr();
         if panels == Some(shown) {
@@ -200,7 +206,7 @@ pub async fn open(bench: Bench) {
             panels = Some(shown);
             window.draw_ui(|ctx| app.panel(ctx));
         }
-        if !window.render_3d(&mut stage.scene, app.camera()).await {
+        if !window.render_3d(&mut drawing.scene, app.camera()).await {
             break;
         }
         app.keep_view();
@@ -230,7 +236,7 @@ pub async fn open(bench: Bench) {
 /// Draws without a window. There can be one of it in a program, on its main thread: the renderer's context is global.
 pub struct Pictures {
     surface: OffscreenSurface,
-    stage: Stage,
+    drawing: Drawing,
 }
 
 impl Pictures {
@@ -239,21 +245,21 @@ impl Pictures {
         let mut surface = OffscreenSurface::new(width, height).await;
         surface.set_samples(NumSamples::Four);
         lit(surface.window_mut());
-        let stage = Stage::default();
-        Self { surface, stage }
+        let drawing = Drawing::default();
+        Self { surface, drawing }
     }
 
     /// What the window would show.
     pub async fn picture(&mut self, app: &mut App) -> image::RgbImage {
-        let (surface, stage) = (&mut self.surface, &mut self.stage);
+        let (surface, drawing) = (&mut self.surface, &mut self.drawing);
         let resized = WindowEvent::FramebufferSize(surface.width(), surface.height());
         app.camera()
             .handle_event(surface.window().canvas(), &resized);
         // The panel knows its size after its first frame.
         for _ in 0..3 {
-            stage.show(surface.window_mut(), &app.bench, &app.hand);
+            drawing.show(surface.window_mut(), &app.bench, &app.pointer);
             surface.draw_ui(|ctx| app.panel(ctx));
-            surface.render_3d(&mut stage.scene, app.camera()).await;
+            surface.render_3d(&mut drawing.scene, app.camera()).await;
         }
         surface.snap_image()
     }

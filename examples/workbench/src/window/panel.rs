@@ -2,9 +2,9 @@
 
 use super::diagram;
 use super::files::Files;
-use super::hand::{Hand, Tool};
 use super::keys;
-use crate::bench::{Bench, Command};
+use super::pointer::{Pointer, Tool};
+use crate::bench::{Bench, Command, SPEEDS};
 use crate::change::{Change, Setting};
 use crate::kinds::Shape;
 use crate::methods::Method;
@@ -22,7 +22,7 @@ use std::ops::RangeInclusive;
 pub fn show(
     ctx: &egui::Context,
     bench: &mut Bench,
-    hand: &mut Hand,
+    pointer: &mut Pointer,
     files: &mut Files,
     phase: &Phase,
 ) -> Vec<Command> {
@@ -40,7 +40,7 @@ pub fn show(
                     let section = |title: &str, open: bool| {
                         CollapsingHeader::new(title.to_owned()).default_open(open)
                     };
-                    section("bodies", true).show(ui, |ui| bodies(ui, bench, hand, &mut asked));
+                    section("bodies", true).show(ui, |ui| bodies(ui, bench, pointer, &mut asked));
                     section("fluid", true).show(ui, |ui| fluid(ui, bench, &mut asked));
                     section("forces by", true).show(ui, |ui| law(ui, bench, &mut asked));
                     section("show", true).show(ui, |ui| view(ui, bench));
@@ -120,7 +120,7 @@ fn time(ui: &mut Ui, bench: &Bench, asked: &mut Vec<Command>) {
         ui.label(format!("{:.2} s", bench.state().time()));
     });
     let mut speed = bench.speed();
-    let slider = Slider::new(&mut speed, 0.02..=2.0)
+    let slider = Slider::new(&mut speed, SPEEDS)
         .logarithmic(true)
         .text("speed");
     if ui.add(slider).changed() {
@@ -131,24 +131,24 @@ fn time(ui: &mut Ui, bench: &Bench, asked: &mut Vec<Command>) {
     }
 }
 
-fn bodies(ui: &mut Ui, bench: &Bench, hand: &mut Hand, asked: &mut Vec<Command>) {
-    let now = hand.body.shape;
+fn bodies(ui: &mut Ui, bench: &Bench, pointer: &mut Pointer, asked: &mut Vec<Command>) {
+    let now = pointer.body.shape;
     ComboBox::from_label("thing")
         .selected_text(now.name())
         .show_ui(ui, |ui| {
             for shape in Shape::ALL {
                 if ui.selectable_label(shape == now, shape.name()).clicked() {
-                    hand.take(shape);
+                    pointer.take(shape);
                 }
             }
         });
     ui.horizontal_wrapped(|ui| {
         for tool in Tool::ALL {
-            ui.selectable_value(&mut hand.tool, tool, tool.name());
+            ui.selectable_value(&mut pointer.tool, tool, tool.name());
         }
     });
-    ui.weak(hand.tool.help());
-    let body = &mut hand.body;
+    ui.weak(pointer.tool.help());
+    let body = &mut pointer.body;
     ui.add(
         Slider::new(&mut body.size, ranges::SIZE)
             .text("times its size")
@@ -170,13 +170,13 @@ fn bodies(ui: &mut Ui, bench: &Bench, hand: &mut Hand, asked: &mut Vec<Command>)
             .max_decimals(0),
     );
     ui.add(
-        Slider::new(&mut hand.rain, ranges::RAIN)
+        Slider::new(&mut pointer.rain, ranges::RAIN)
             .text("bodies in a rain")
             .integer(),
     );
     ui.horizontal(|ui| {
         if ui.button("rain").clicked() {
-            asked.push(keys::rain(bench, hand));
+            asked.push(keys::rain(bench, pointer));
         }
         if ui.button("remove selected").clicked() {
             asked.extend(keys::remove(bench));

@@ -4,7 +4,7 @@ use immersed_workbench::window::{App, Tool};
 use immersed_workbench::{Bench, Change, Command, Placement, View};
 use kiss3d::camera::Camera3d;
 use kiss3d::event::{Action, Key, Modifiers, MouseButton, WindowEvent};
-use kiss3d::glamx::Vec2;
+use kiss3d::glamx::{Vec2, Vec3};
 
 const SIZE: Vec2 = Vec2::new(800.0, 600.0);
 
@@ -57,7 +57,7 @@ fn keys_ask_once() {
 fn drags_end_with_their_tool() {
     let mut app = App::new(Bench::default());
     let drag = |app: &mut App, tool: Tool, between: &dyn Fn(&mut App)| {
-        app.hand.tool = tool;
+        app.pointer.tool = tool;
         moved(app, 300.0, 300.0);
         button(app, Action::Press);
         moved(app, 340.0, 280.0);
@@ -72,8 +72,10 @@ fn drags_end_with_their_tool() {
         app.bench.state().world().bodies[handle].linvel().to_array()
     };
     assert!(x > 0.1 && y > 0.1, "to the right and up: {x}, {y}");
-    drag(&mut app, Tool::Select, &|app| app.hand.tool = Tool::Throw);
-    drag(&mut app, Tool::Place, &|app| app.hand.tool = Tool::Draw);
+    drag(&mut app, Tool::Select, &|app| {
+        app.pointer.tool = Tool::Throw
+    });
+    drag(&mut app, Tool::Place, &|app| app.pointer.tool = Tool::Draw);
     drag(&mut app, Tool::Throw, &|app| {
         app.event(&WindowEvent::Focus(false), SIZE);
     });
@@ -102,6 +104,11 @@ fn views_come_from_files_and_go_there() {
     // And stays so.
     let eye = app.camera().eye().to_array();
     assert_eq!(eye, view.eye);
+    // Who wanders off may do so, but a file has the last view that can be read.
+    app.camera().set_at(Vec3::splat(1e3));
+    app.keep_view();
+    assert!(app.camera().at().x > 999.0);
+    assert_eq!(app.bench.view, view);
     std::fs::remove_dir_all(folder).unwrap();
 }
 

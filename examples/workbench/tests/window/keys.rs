@@ -5,7 +5,7 @@ use immersed_workbench::{Bench, Change, Command, Method, Placement, Setting};
 use kiss3d::event::Key;
 
 fn press(app: &mut App, key: Key) {
-    if let Some(command) = pressed(key, false, &mut app.bench, &mut app.hand) {
+    if let Some(command) = pressed(key, false, &mut app.bench, &mut app.pointer) {
         app.bench.apply(command).unwrap();
     }
 }
@@ -31,7 +31,7 @@ fn one_key_for_each_method() {
         press(&mut app, key);
         assert_eq!(app.bench.state().settings.method, method);
     }
-    let asked = pressed(Key::Numpad3, false, &mut app.bench, &mut app.hand);
+    let asked = pressed(Key::Numpad3, false, &mut app.bench, &mut app.pointer);
     let graph = Command::Change(Change::Set(Setting::Method(Method::Graph)));
     assert_eq!(asked, Some(graph));
 }
@@ -48,7 +48,7 @@ fn time_goes_by_keys() {
     assert_eq!(app.bench.state().step, 100);
     press(&mut app, Key::Left);
     assert_eq!(app.bench.state().step, 40);
-    let shift = pressed(Key::Left, true, &mut app.bench, &mut app.hand);
+    let shift = pressed(Key::Left, true, &mut app.bench, &mut app.pointer);
     assert_eq!(shift, Some(Command::Rewind(2.0)));
     press(&mut app, Key::Comma);
     assert!((app.bench.speed() - 0.8).abs() < 1e-9);
@@ -88,7 +88,7 @@ fn tools_and_views_have_keys() {
         (Key::S, Tool::Select),
     ] {
         press(&mut app, key);
-        assert_eq!(app.hand.tool, tool);
+        assert_eq!(app.pointer.tool, tool);
     }
     let before = app.bench.view;
     for key in [Key::F, Key::L, Key::P, Key::X, Key::W, Key::D, Key::H] {
@@ -120,7 +120,7 @@ fn what_has_no_key_asks_for_nothing() {
     let mut app = with_leaf();
     let before = app.bench.view;
     for key in [Key::Q, Key::F5, Key::Escape, Key::Return] {
-        assert_eq!(pressed(key, false, &mut app.bench, &mut app.hand), None);
+        assert_eq!(pressed(key, false, &mut app.bench, &mut app.pointer), None);
     }
     assert_eq!(app.bench.view, before);
     assert!(

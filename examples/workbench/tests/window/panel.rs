@@ -128,7 +128,7 @@ fn it_rains_at_a_click() {
     assert!(screen.app.bench.state().bodies.is_empty());
     screen.click("throw");
     assert_eq!(
-        screen.app.hand.tool,
+        screen.app.pointer.tool,
         immersed_workbench::window::Tool::Throw
     );
 }

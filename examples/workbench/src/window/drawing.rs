@@ -1,6 +1,6 @@
 //! What is drawn: bodies, ground, water, lines.
 
-use super::hand::Hand;
+use super::pointer::Pointer;
 use crate::bench::Bench;
 use crate::forces;
 use crate::kinds::{Shape, kind};
@@ -31,7 +31,7 @@ const SELECTED: Color = Color::new(1.0, 0.67, 0.16, 1.0);
 const RING: usize = 48;
 
 /// The nodes of the scene.
-pub struct Stage {
+pub struct Drawing {
     /// What a renderer draws.
     pub scene: SceneNode3d,
     water: SceneNode3d,
@@ -45,7 +45,7 @@ fn rgb([r, g, b]: [f32; 3]) -> Color {
     Color::new(r, g, b, 1.0)
 }
 
-impl Default for Stage {
+impl Default for Drawing {
     fn default() -> Self {
         let mut scene = SceneNode3d::empty();
         let sun = Light::directional(Vec3::new(-0.45, -1.0, -0.35)).with_intensity(SUN);
@@ -74,9 +74,9 @@ impl Default for Stage {
     }
 }
 
-impl Stage {
+impl Drawing {
     /// The state of the bench, on a window: nodes stay, lines are for the next frame.
-    pub fn show(&mut self, window: &mut Window, bench: &Bench, hand: &Hand) {
+    pub fn show(&mut self, window: &mut Window, bench: &Bench, pointer: &Pointer) {
         let state = bench.state();
         let under = state.settings.fluids == Fluids::Water;
         window.set_background_color(if under { UNDER_WATER } else { SKY });
@@ -86,7 +86,7 @@ impl Stage {
         for line in forces::lines(state, &bench.view) {
             window.draw_line(line.from, line.to, rgb(line.color), 2.0, false);
         }
-        for [from, to] in hand.lines() {
+        for [from, to] in pointer.lines() {
             window.draw_line(from, to, PATH, 3.0, false);
         }
         for (index, body) in state.bodies.iter().enumerate() {

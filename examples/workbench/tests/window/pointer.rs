@@ -1,6 +1,6 @@
 //! What lines of sight ask for.
 
-use immersed_workbench::window::{App, Hand, Sight, Tool};
+use immersed_workbench::window::{App, Pointer, Sight, Tool};
 use immersed_workbench::{Bench, Change, Command, Placement, Shape};
 use rapier3d_immersed::rapier3d::math::Vector;
 
@@ -11,15 +11,15 @@ fn toward(bench: &Bench, point: Vector) -> Sight {
     Sight { origin, direction }
 }
 
-fn drag(hand: &mut Hand, bench: &mut Bench, points: &[Vector]) -> Option<Command> {
+fn drag(pointer: &mut Pointer, bench: &mut Bench, points: &[Vector]) -> Option<Command> {
     let [first, .., last] = points else {
         panic!("a drag has two points");
     };
-    hand.press(&toward(bench, *first), &bench.view);
+    pointer.press(&toward(bench, *first), &bench.view);
     for point in points {
-        hand.drag(&toward(bench, *point), &bench.view);
+        pointer.drag(&toward(bench, *point), &bench.view);
     }
-    hand.release(&toward(bench, *last), bench)
+    pointer.release(&toward(bench, *last), bench)
 }
 
 /// A point of the upright plane through the view's target that faces the eye, so far aside and up.
@@ -44,12 +44,12 @@ fn near(a: [f64; 3], b: Vector) {
 #[test]
 fn a_click_on_the_ground_places_over_it() {
     let mut bench = Bench::default();
-    let mut hand = Hand::default();
-    hand.tool = Tool::Place;
-    hand.take(Shape::Coin);
-    hand.body.position[1] = 0.9;
+    let mut pointer = Pointer::default();
+    pointer.tool = Tool::Place;
+    pointer.take(Shape::Coin);
+    pointer.body.position[1] = 0.9;
     let point = Vector::new(0.4, 0.0, -0.7);
-    let asked = drag(&mut hand, &mut bench, &[point, point]);
+    let asked = drag(&mut pointer, &mut bench, &[point, point]);
     let Some(Command::Change(Change::Place(placed))) = asked else {
         panic!("{asked:?}");
     };
@@ -57,20 +57,20 @@ fn a_click_on_the_ground_places_over_it() {
     near(placed.position, Vector::new(0.4, 0.9, -0.7));
     // The sky has no ground under it.
     let sky = Vector::new(0.0, 9.0, -3.0);
-    assert_eq!(drag(&mut hand, &mut bench, &[sky, sky]), None);
+    assert_eq!(drag(&mut pointer, &mut bench, &[sky, sky]), None);
 }
 
 #[test]
 fn a_drag_throws_along_itself() {
     let mut bench = Bench::default();
-    let mut hand = Hand::default();
-    hand.tool = Tool::Throw;
+    let mut pointer = Pointer::default();
+    pointer.tool = Tool::Throw;
     let (from, to) = (facing(&bench, -0.3, 0.1), facing(&bench, 0.2, 0.4));
-    hand.press(&toward(&bench, from), &bench.view);
-    hand.drag(&toward(&bench, to), &bench.view);
-    assert_eq!(hand.lines().len(), 1);
-    let asked = hand.release(&toward(&bench, to), &mut bench);
-    assert!(hand.lines().is_empty());
+    pointer.press(&toward(&bench, from), &bench.view);
+    pointer.drag(&toward(&bench, to), &bench.view);
+    assert_eq!(pointer.lines().len(), 1);
+    let asked = pointer.release(&toward(&bench, to), &mut bench);
+    assert!(pointer.lines().is_empty());
     let Some(Command::Change(Change::Place(thrown))) = asked else {
         panic!("{asked:?}");
     };
@@ -81,7 +81,7 @@ fn a_drag_throws_along_itself() {
 #[test]
 fn a_drawn_line_is_followed() {
     let mut app = App::new(Bench::default());
-    app.hand.tool = Tool::Draw;
+    app.pointer.tool = Tool::Draw;
     let line: Vec<Vector> = (0..40)
         .map(|i| {
             let share = i as f32 / 39.0;
@@ -89,7 +89,7 @@ fn a_drawn_line_is_followed() {
             facing(&app.bench, aside, 0.6 - 0.9 * share)
         })
         .collect();
-    let asked = drag(&mut app.hand, &mut app.bench, &line).unwrap();
+    let asked = drag(&mut app.pointer, &mut app.bench, &line).unwrap();
     app.bench.apply(asked).unwrap();
     app.bench.apply(Command::Step(120)).unwrap();
     let body = &app.bench.state().bodies[0];
@@ -101,7 +101,7 @@ fn a_drawn_line_is_followed() {
     assert!(mean < 0.042, "{mean} m from the line");
     // A line that climbs is refused with a reason.
     let climbs = [facing(&app.bench, 0.0, 0.0), facing(&app.bench, 0.1, 0.5)];
-    let asked = drag(&mut app.hand, &mut app.bench, &climbs).unwrap();
+    let asked = drag(&mut app.pointer, &mut app.bench, &climbs).unwrap();
     assert!(app.bench.apply(asked).is_err());
     assert!(app.bench.message.contains("cannot climb"));
 }
@@ -116,18 +116,18 @@ fn a_click_selects_the_nearest_and_a_drag_turns() {
         };
         bench.apply(Command::Change(Change::Place(placed))).unwrap();
     }
-    let mut hand = Hand::default();
+    let mut pointer = Pointer::default();
     let at = Vector::new(0.5, 1.0, 0.0);
-    assert_eq!(drag(&mut hand, &mut bench, &[at, at]), None);
+    assert_eq!(drag(&mut pointer, &mut bench, &[at, at]), None);
     assert_eq!(bench.view.selected, Some(2));
     let beside = Vector::new(0.51, 1.02, 0.0);
     bench.view.selected = Some(0);
-    drag(&mut hand, &mut bench, &[beside, beside]);
+    drag(&mut pointer, &mut bench, &[beside, beside]);
     assert_eq!(bench.view.selected, Some(2));
     // A drag changes nothing, a click beside all of them selects none.
-    drag(&mut hand, &mut bench, &[Vector::new(-0.5, 1.0, 0.0), at]);
+    drag(&mut pointer, &mut bench, &[Vector::new(-0.5, 1.0, 0.0), at]);
     assert_eq!(bench.view.selected, Some(2));
     let nothing = Vector::new(0.2, 0.3, 0.0);
-    drag(&mut hand, &mut bench, &[nothing, nothing]);
+    drag(&mut pointer, &mut bench, &[nothing, nothing]);
     assert_eq!(bench.view.selected, None);
 }

@@ -86,7 +86,7 @@ struct Drag {
 
 /// The tool, what it holds, and how far a drag has come.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Hand {
+pub struct Pointer {
     /// What the left button does.
     pub tool: Tool,
     /// What is placed, thrown or rained: shape, size, tilt and heading of this, and its height where it is placed.
@@ -96,7 +96,7 @@ pub struct Hand {
     drag: Option<Drag>,
 }
 
-impl Default for Hand {
+impl Default for Pointer {
     fn default() -> Self {
         Self {
             tool: Tool::default(),
@@ -107,7 +107,7 @@ impl Default for Hand {
     }
 }
 
-impl Hand {
+impl Pointer {
     /// Where on the tool's plane one points at: on the ground to place something, to throw or draw on the upright plane
     /// through the view's target that faces the eye.
     fn point(&self, sight: &Sight, view: &View) -> Option<Vector> {
@@ -215,7 +215,7 @@ impl Hand {
         }
     }
 
-    /// Takes another thing into the hand, in its own size.
+    /// Takes another thing, in its own size.
     pub fn take(&mut self, shape: Shape) {
         (self.body.shape, self.body.size) = (shape, 1.0);
     }
